@@ -23,6 +23,9 @@ pub struct Description {
     pub joints: Vec<String>,
     /// Contacts, ranges and dry joints, in the order of their rows.
     pub contacts: Vec<ContactDescription>,
+    /// Where velocities of contact impulses come from halves of A⁻¹Wᵀ: the count of their first numbers, the pivots of
+    /// A and what is below them. Numbers of rows follow.
+    pub factors: Option<usize>,
     /// Whether nothing but contacts can raise the energy.
     pub keeps_energy: bool,
     /// Remarks about the robot's file, in words that are not of Rust.

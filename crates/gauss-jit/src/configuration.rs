@@ -390,8 +390,14 @@ impl<const N: usize> Configuration for MixedConfiguration<N> {
     }
 
     fn magnitude(&self, i: usize) -> f64 {
-        let own = self.parts().find(|(_, _, increments)| increments.contains(&i));
-        // Behind all parts there are no numbers.
-        own.map_or(0.0, |(part, c, own)| of_part!(part, magnitude(&self.as_slice()[c], i - own.start)))
+        let (mut component, mut increment) = (0, 0);
+        for (part, c, own) in self.parts().take_while(|(part, ..)| !matches!(part, Part::Coordinate)) {
+            if own.contains(&i) {
+                return of_part!(part, magnitude(&self.as_slice()[c], i - own.start));
+            }
+            (component, increment) = (c.end, own.end);
+        }
+        // Coordinates, behind which there are no numbers.
+        self.as_slice().get(component + i - increment).map_or(0.0, |x| x.abs())
     }
 }

@@ -17,7 +17,8 @@ const OPEN: f64 = 1.0;
 
 /// A kernel with contacts as a [`ContactSystem`]: a [`System`] with room for R rows of contacts besides.
 ///
-/// Rows that the model does not have are zero, and no contact has them. Matrices of R rows are handed on by value.
+/// Rows that the model does not have are zero, and no contact has them. Matrices of R rows are handed on by value: rooms
+/// that fit are faster.
 #[derive(Clone, Copy, Debug)]
 pub struct SystemWithContacts<'k, const Q: usize, const Z: usize, I, const R: usize, const CONSTRAINED: bool = false> {
     system: System<'k, Q, Z, I, CONSTRAINED>,
@@ -26,6 +27,10 @@ pub struct SystemWithContacts<'k, const Q: usize, const Z: usize, I, const R: us
     described: &'k [ContactDescription],
     /// Number of the model's own rows.
     rows: usize,
+    /// Where A⁻¹Wᵀ comes in halves that there is room for, the numbers below the pivots of A among them.
+    below_pivots: Option<(usize, usize)>,
+    /// Count of the numbers of these halves.
+    halves: usize,
     restitution: SVector<f64, R>,
 }
 
@@ -62,9 +67,14 @@ impl<'k, const Q: usize, const Z: usize, I: Inputs, const R: usize, const CONSTR
         if rows > R {
             return Err(NoSystem::Rows { expected: rows, found: R });
         }
+        let halves = kernel.model().arguments("impulse_velocities").unwrap_or_default();
+        let halves = halves.get(2).map_or(0, |halves| halves.components.len());
+        let factors = kernel.model().description().factors.filter(|_| halves <= Z * R);
+        let below_pivots = factors.map(|factors| (system.degrees_of_freedom(), factors));
         // It is a constant of the model, which asks no state.
         let anywhere = [1.0; Q];
-        let mut own = Self { system, contacts, described, rows, restitution: SVector::zeros() };
+        let restitution = SVector::zeros();
+        let mut own = Self { system, contacts, described, rows, below_pivots, halves, restitution };
         own.restitution = results!(own.system.vector("restitution", &[0.0], &anywhere[..own.components(kernel)]));
         Ok(own)
     }
@@ -90,27 +100,40 @@ impl<'k, const Q: usize, const Z: usize, I: Inputs, const R: usize, const CONSTR
     }
 
     /// A⁻¹Wᵀ and D from what the program gives: columns, or the halves of them, then D.
-    fn response(&self, at: (&[f64], &[f64]), numbers: &[f64]) -> ImpulseResponse<Self> {
+    fn response(&self, numbers: &[f64]) -> ImpulseResponse<Self> {
         let (effect, delassus) = numbers.split_at(numbers.len() - self.rows * self.rows);
-        let columns = if self.has_halves() { self.columns(at, effect) } else { self.matrix(effect, self.rows) };
-        ImpulseResponse::new(columns, self.matrix(delassus, self.rows))
+        let factors = if self.below_pivots.is_some() {
+            let mut halves = SMatrix::<f64, Z, R>::zeros();
+            halves.as_mut_slice()[..effect.len()].copy_from_slice(effect);
+            halves
+        } else if self.system.has(const { place_of("impulse_velocities") }) {
+            self.columns(effect)
+        } else {
+            self.matrix(effect, self.rows)
+        };
+        ImpulseResponse::new(factors, self.matrix(delassus, self.rows))
     }
 
-    /// Whether A⁻¹Wᵀ comes in halves, as of long trees.
-    fn has_halves(&self) -> bool {
-        self.system.has(const { place_of("impulse_velocities") })
+    /// Velocities of impulses from halves of A⁻¹Wᵀ, which depend on nothing else.
+    fn velocities(&self, halves: &[f64], impulses: &[f64]) -> SVector<f64, Z> {
+        let anywhere = [0.0; Q];
+        results!(self.system.vector("impulse_velocities", &[0.0], self.system.own_of(&anywhere), halves, impulses))
     }
 
     /// A⁻¹Wᵀ from its halves, by unit impulses.
-    fn columns(&self, (t, q): (&[f64], &[f64]), halves: &[f64]) -> SMatrix<f64, Z, R> {
-        let (mut columns, mut impulses) = (SMatrix::<f64, Z, R>::zeros(), vec![0.0; self.rows]);
+    fn columns(&self, halves: &[f64]) -> SMatrix<f64, Z, R> {
+        let (mut columns, mut impulses) = (SMatrix::<f64, Z, R>::zeros(), [0.0; R]);
         for row in 0..self.rows {
             impulses[row] = 1.0;
-            let column: SVector<f64, Z> = results!(self.system.vector("impulse_velocities", t, q, halves, &impulses));
-            columns.set_column(row, &column);
+            columns.set_column(row, &self.velocities(halves, &impulses[..self.rows]));
             impulses[row] = 0.0;
         }
         columns
+    }
+
+    /// The halves of A⁻¹Wᵀ in the room of its columns.
+    fn halves<'a>(&self, factors: &'a SMatrix<f64, Z, R>) -> &'a [f64] {
+        &factors.as_slice()[..self.halves]
     }
 }
 
@@ -185,8 +208,7 @@ impl<const Q: usize, const Z: usize, I: Inputs, const R: usize, const CONSTRAINE
     }
 
     fn impulse_response(&self, t: f64, q: &MixedConfiguration<Q>) -> ImpulseResponse<Self> {
-        let q = self.system.own(q);
-        self.response((&[t], q), &results!(self.system.numbers("impulse_response", &[t], q)))
+        self.response(&results!(self.system.numbers("impulse_response", &[t], self.system.own(q))))
     }
 
     fn impulse_dynamics(
@@ -200,19 +222,30 @@ impl<const Q: usize, const Z: usize, I: Inputs, const R: usize, const CONSTRAINE
         let numbers = results!(self.system.numbers("impulse_dynamics", &[t], q, z, input));
         let (acceleration, rest) = numbers.split_at(self.system.degrees_of_freedom());
         let (bias, response) = rest.split_at(self.rows);
-        ImpulseDynamics::new(widened(acceleration), widened(bias), self.response((&[t], q), response))
+        ImpulseDynamics::new(widened(acceleration), widened(bias), self.response(response))
     }
 
     fn impulse_velocities(&self, factors: &Self::ImpulseFactors, impulses: &Self::ContactRows) -> Self::Speeds {
-        impulse_velocities::<Self>(factors, impulses)
+        match self.below_pivots {
+            None => impulse_velocities::<Self>(factors, impulses),
+            Some(_) => self.velocities(self.halves(factors), &impulses.as_slice()[..self.rows]),
+        }
     }
 
     fn impulse_terms(&self, factors: &Self::ImpulseFactors, impulses: &Self::ContactRows) -> Self::Speeds {
-        impulse_terms::<Self>(factors, impulses)
+        match self.below_pivots {
+            None => impulse_terms::<Self>(factors, impulses),
+            Some((pivots, rows)) => {
+                let (mut sizes, impulses) = (factors.abs(), impulses.abs());
+                // What is taken away below the pivots is made negative: then nothing cancels.
+                sizes.as_mut_slice()[pivots..rows].iter_mut().for_each(|size| *size = -*size);
+                self.velocities(self.halves(&sizes), &impulses.as_slice()[..self.rows])
+            }
+        }
     }
 
     fn contact_columns(&self, factors: &Self::ImpulseFactors) -> Self::ContactColumns {
-        *factors
+        if self.below_pivots.is_some() { self.columns(self.halves(factors)) } else { *factors }
     }
 }
 

@@ -252,6 +252,11 @@ impl<'k, const Q: usize, const Z: usize, I: Inputs, const CONSTRAINED: bool> Sys
         &q.as_slice()[..self.sizes.configuration]
     }
 
+    /// The numbers of the model among components that are in its room.
+    pub(crate) fn own_of<'a>(&self, components: &'a [f64; Q]) -> &'a [f64] {
+        &components[..self.sizes.configuration]
+    }
+
     pub(crate) fn speeds<'a>(&self, z: &'a SVector<f64, Z>) -> &'a [f64] {
         &z.as_slice()[..self.sizes.speeds]
     }

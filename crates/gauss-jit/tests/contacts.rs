@@ -156,12 +156,16 @@ fn methods<S, I, const Q: usize, const Z: usize, const R: usize, const CONSTRAIN
         );
     }
     let impulses: Vec<f64> = (0..rows).map(|row| 0.4 - 0.3 * (row % 4) as f64).collect();
+    let factors = (compiled.impulse_response(t, q).factors, system.impulse_response(t, &own_q).factors);
     let pushed = (
-        compiled.impulse_velocities(&compiled.impulse_response(t, q).factors, &vector(&impulses)),
-        system.impulse_velocities(&system.impulse_response(t, &own_q).factors, &vector(&impulses)),
+        compiled.impulse_velocities(&factors.0, &vector(&impulses)),
+        system.impulse_velocities(&factors.1, &vector(&impulses)),
     );
     agree(&numbers(&pushed.0), &numbers(&pushed.1), ROUNDING);
     assert!(numbers(&pushed.1)[speeds..].iter().all(|x| *x == 0.0));
+    // Sizes of the terms of which velocities are sums.
+    let terms = numbers(&system.impulse_terms(&factors.1, &vector(&impulses)));
+    assert!(numbers(&pushed.1).iter().zip(&terms).all(|(sum, size)| sum.abs() <= (1.0 + ROUNDING) * size));
     for contact in 0..=count {
         let (own, found) = (compiled.contact_frame(contact, t, q), system.contact_frame(contact, t, &own_q));
         assert_eq!(own.is_some(), found.is_some(), "{contact}");
@@ -289,6 +293,15 @@ fn a_robot_on_its_feet() {
     let wide = loaded.contact_system::<32, 32, SVector<f64, 16>, 24>().expect("room");
     methods(&compiled, &wide, (&q, &z), (&loads.0, &loads.1));
     runs(&compiled, &wide, &motion(), false);
+    let (own_q, impulses) = (wide.system().configuration(&numbers(&q.components())), [0.3, -0.1, 0.2]);
+    let terms = (
+        compiled.impulse_terms(&compiled.impulse_response(0.3, &q).factors, &vector(&impulses)),
+        wide.impulse_terms(&wide.impulse_response(0.3, &own_q).factors, &vector(&impulses)),
+    );
+    agree(&numbers(&terms.0), &numbers(&terms.1), ROUNDING);
+    // The room of its own columns is too small for its halves.
+    let narrow = loaded.contact_system::<19, 18, SVector<f64, 12>, 12>().expect("room");
+    methods(&compiled, &narrow, (&q, &z), (&loads.0, &loads.0));
 }
 
 #[test]

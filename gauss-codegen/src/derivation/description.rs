@@ -22,6 +22,7 @@ pub fn description(derived: &Derived<'_, '_>) -> Description {
         frames: derived.frames().iter().map(|frame| frame.unraw().to_string()).collect(),
         joints: item.wanted.reactions.iter().map(|joint| joint.name.unraw().to_string()).collect(),
         contacts: derived.subject.contacts(),
+        factors: derived.subject.system.halves().map(|halves| halves.first_of_rows()),
         keeps_energy: derived.keeps_energy(),
         remarks: remarks.map(|own| Remark { text: without_rust(&own.text), ignored: own.ignored }).collect(),
         is_constrained: derived.subject.can_drift,
