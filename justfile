@@ -10,7 +10,7 @@ example:
 
 # Kernels in the integrators of other crates.
 adapters:
-    cargo test -p gauss-tests --test adapters
+    cargo test -p gauss-tests --test runs adapters::
     cargo run --release -p gauss-comparisons --example other_integrators
 
 # Formatting and lints, as CI has them.

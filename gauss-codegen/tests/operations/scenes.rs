@@ -292,15 +292,15 @@ fn written_out() -> Vec<Scene> {
     let places = [
         "benches/src/scenes.rs",
         "examples",
-        "tests/tests/arm.rs",
-        "tests/tests/central_gravity.rs",
-        "tests/tests/elements.rs",
-        "tests/tests/holonomic.rs",
-        "tests/tests/linkages",
-        "tests/tests/media.rs",
-        "tests/tests/nonholonomic",
-        "tests/tests/rolling",
-        "tests/tests/systems.rs",
+        "tests/tests/systems/arm.rs",
+        "tests/tests/bodies/central_gravity.rs",
+        "tests/tests/systems/elements.rs",
+        "tests/tests/constraints/holonomic.rs",
+        "tests/tests/constraints/linkages",
+        "tests/tests/bodies/media.rs",
+        "tests/tests/constraints/nonholonomic",
+        "tests/tests/constraints/rolling",
+        "tests/tests/systems/main.rs",
     ];
     places.into_iter().flat_map(sources::of).collect()
 }

@@ -14,17 +14,17 @@ pub const SMOOTH: Row = Row {
     name: "Smooth forces",
     clause: "bodies, springs, dampers, potentials, media",
     cells: &[
-        ("fix", shown("tests/tests/integrators.rs", "orders_on_a_heavy_top_against_its_reference")),
+        ("fix", shown("tests/tests/runs/integrators.rs", "orders_on_a_heavy_top_against_its_reference")),
         ("ada", shown("gauss-runtime/src/integrate/tests.rs", "adaptive_steps_keep_the_tolerance_and_save_work")),
-        ("tay", shown("tests/tests/taylor/runs.rs", "tops_reach_their_references_at_every_tolerance")),
-        ("ros", shown("tests/tests/rosenbrock.rs", "what_decays_fast_is_gone_after_a_step")),
+        ("tay", shown("tests/tests/runs/taylor/runs.rs", "tops_reach_their_references_at_every_tolerance")),
+        ("ros", shown("tests/tests/runs/rosenbrock.rs", "what_decays_fast_is_gone_after_a_step")),
         ("imp", shown("tests/long_runs/tests/energy_momentum.rs", "orders_against_a_reference")),
         ("evt", refused(NO_CONTACTS)),
         ("stp", refused(NO_CONTACTS)),
-        ("one", shown("tests/tests/rosenbrock.rs", "order_4_of_systems")),
-        ("lan", shown("tests/tests/batch/main.rs", "every_state_gets_the_bits_of_a_run_of_its_own")),
-        ("thr", shown("tests/tests/batch/ensembles.rs", "every_run_takes_the_steps_that_it_would_take_alone")),
-        ("at", shown("tests/tests/between.rs", "states_between_samples_have_their_error")),
+        ("one", shown("tests/tests/runs/rosenbrock.rs", "order_4_of_systems")),
+        ("lan", shown("tests/tests/runs/batch/mod.rs", "every_state_gets_the_bits_of_a_run_of_its_own")),
+        ("thr", shown("tests/tests/runs/batch/ensembles.rs", "every_run_takes_the_steps_that_it_would_take_alone")),
+        ("at", shown("tests/tests/runs/between.rs", "states_between_samples_have_their_error")),
         ("tab", shown("crates/gauss-tables/tests/files.rs", "csv_reads_back")),
         ("plt", shown("crates/gauss-tables/tests/files.rs", "a_panel_for_each_unit")),
         (
@@ -46,9 +46,9 @@ pub const SMOOTH: Row = Row {
                 "the_gradient_of_an_ensemble_is_the_sum_of_gradients",
             ),
         ),
-        ("lin", shown("tests/tests/linearize.rs", "a_body_in_a_fluid")),
-        ("dst", shown("tests/tests/discrete.rs", "groups_and_scalars")),
-        ("run", shown("tests/tests/discrete.rs", "steps_after_one_another")),
+        ("lin", shown("tests/tests/derivatives/linearize.rs", "a_body_in_a_fluid")),
+        ("dst", shown("tests/tests/derivatives/discrete.rs", "groups_and_scalars")),
+        ("run", shown("tests/tests/derivatives/discrete.rs", "steps_after_one_another")),
         ("stu", shown("crates/gauss-study/tests/lanes.rs", "rows_of_lanes_are_those_of_single_runs")),
         ("py", shown("examples/python/tests/test_methods.py", "test_methods_agree")),
     ],
@@ -58,27 +58,27 @@ pub const CONSTRAINTS: Row = Row {
     name: "Constraints",
     clause: "`constraint(position = …)`, `constraint(velocity = …)`",
     cells: &[
-        ("fix", shown("tests/tests/linkages/main.rs", "the_loop_stays_closed_for_a_hundred_thousand_steps")),
+        ("fix", shown("tests/tests/constraints/linkages/mod.rs", "the_loop_stays_closed_for_a_hundred_thousand_steps")),
         (
             "ada",
             shown(
-                "tests/tests/linkages/rows.rs",
+                "tests/tests/constraints/linkages/rows.rs",
                 "singular_positions_are_passed_on_the_branch_by_which_a_motion_comes",
             ),
         ),
         (
             "tay",
             shown(
-                "tests/tests/linkages/rows.rs",
+                "tests/tests/constraints/linkages/rows.rs",
                 "energy_is_kept_where_digits_are_lost_or_the_run_ends_with_the_reason",
             ),
         ),
-        ("ros", shown("tests/tests/rosenbrock.rs", "constraints_are_kept")),
+        ("ros", shown("tests/tests/runs/rosenbrock.rs", "constraints_are_kept")),
         (
             "imp",
             shown("gauss-runtime/src/integrate/structure/collocation_tests.rs", "constraints_hold_and_the_order_stays"),
         ),
-        ("evt", shown("tests/tests/touching.rs", "impacts_under_constraints_are_those_of_the_solved_system")),
+        ("evt", shown("tests/tests/touching/main.rs", "impacts_under_constraints_are_those_of_the_solved_system")),
         (
             "stp",
             shown("crates/gauss-contact/tests/many/driven.rs", "friction_along_a_driven_coordinate_is_at_its_bound")
@@ -86,10 +86,10 @@ pub const CONSTRAINTS: Row = Row {
         ),
         (
             "one",
-            shown("tests/tests/rosenbrock.rs", "order_4_of_systems")
+            shown("tests/tests/runs/rosenbrock.rs", "order_4_of_systems")
                 .but("nothing brings the state back onto the constraints: `project` does, when it is called"),
         ),
-        ("lan", shown("tests/tests/batch/main.rs", "constraints_hold_in_every_lane")),
+        ("lan", shown("tests/tests/runs/batch/mod.rs", "constraints_hold_in_every_lane")),
         ("thr", together("constraints::lanes_and_threads")),
         (
             "at",
@@ -114,10 +114,10 @@ pub const CONSTRAINTS: Row = Row {
             ),
         ),
         ("adj", shown("crates/gauss-sensitivity/tests/derivatives/linkages.rs", "gradients_pass_through_projections")),
-        ("lin", shown("tests/tests/linearize.rs", "constraints_with_multipliers")),
+        ("lin", shown("tests/tests/derivatives/linearize.rs", "constraints_with_multipliers")),
         (
             "dst",
-            shown("tests/tests/discrete.rs", "constraints_with_multipliers")
+            shown("tests/tests/derivatives/discrete.rs", "constraints_with_multipliers")
                 .but("before the state is brought back onto the constraints"),
         ),
         (
@@ -135,7 +135,10 @@ pub const REDUNDANT: Row = Row {
     clause: "`redundant`",
     cells: &[
         ("fix", together("redundant::steps")),
-        ("ada", shown("tests/tests/linkages/redundant.rs", "a_door_on_three_hinges_swings_as_about_an_axle")),
+        (
+            "ada",
+            shown("tests/tests/constraints/linkages/redundant.rs", "a_door_on_three_hinges_swings_as_about_an_axle"),
+        ),
         ("tay", refused(REDUNDANT_HAS_NO_SERIES)),
         ("ros", together("redundant::stiff")),
         ("imp", together("redundant::implicit")),
@@ -148,7 +151,7 @@ pub const REDUNDANT: Row = Row {
         ("tab", together("redundant::table_and_plot")),
         ("plt", together("redundant::table_and_plot")),
         ("pag", together("redundant::page")),
-        ("mon", shown("tests/tests/linkages/redundant.rs", "bricards_mechanism_moves_as_in_closed_form")),
+        ("mon", shown("tests/tests/constraints/linkages/redundant.rs", "bricards_mechanism_moves_as_in_closed_form")),
         ("fwd", together("redundant::of_runs")),
         ("adj", together("redundant::of_runs")),
         ("lin", together("redundant::at_a_state")),
@@ -165,29 +168,38 @@ pub const STATES: Row = Row {
     cells: &[
         (
             "fix",
-            shown("tests/tests/elements_with_states/closed.rs", "an_oscillator_with_a_filter_is_a_matrix_exponential")
-                .but("by `Adams`"),
+            shown(
+                "tests/tests/systems/elements_with_states/closed.rs",
+                "an_oscillator_with_a_filter_is_a_matrix_exponential",
+            )
+            .but("by `Adams`"),
         ),
-        ("ada", shown("tests/tests/elements_with_states/beside.rs", "a_body_in_a_chart_has_states")),
-        ("tay", shown("tests/tests/elements_with_states/closed.rs", "a_lag_of_first_order_is_exact")),
+        ("ada", shown("tests/tests/systems/elements_with_states/beside.rs", "a_body_in_a_chart_has_states")),
+        ("tay", shown("tests/tests/systems/elements_with_states/closed.rs", "a_lag_of_first_order_is_exact")),
         (
             "ros",
-            shown("tests/tests/elements_with_states/closed.rs", "an_oscillator_with_a_filter_is_a_matrix_exponential"),
+            shown(
+                "tests/tests/systems/elements_with_states/closed.rs",
+                "an_oscillator_with_a_filter_is_a_matrix_exponential",
+            ),
         ),
         (
             "imp",
-            shown("tests/tests/elements_with_states/closed.rs", "an_oscillator_with_a_filter_is_a_matrix_exponential"),
+            shown(
+                "tests/tests/systems/elements_with_states/closed.rs",
+                "an_oscillator_with_a_filter_is_a_matrix_exponential",
+            ),
         ),
-        ("evt", shown("tests/tests/elements_with_states/beside.rs", "states_go_on_through_impacts")),
+        ("evt", shown("tests/tests/systems/elements_with_states/beside.rs", "states_go_on_through_impacts")),
         (
             "stp",
             refused(
                 "a step takes forces once, at its half; rates of states have no such rule: `ContactErrorKind::States`",
             )
-            .by("tests/tests/elements_with_states/beside.rs", "steps_of_one_length_refuse_states"),
+            .by("tests/tests/systems/elements_with_states/beside.rs", "steps_of_one_length_refuse_states"),
         ),
         ("one", together("states::by_hand")),
-        ("lan", shown("tests/tests/elements_with_states/beside.rs", "packs_have_states")),
+        ("lan", shown("tests/tests/systems/elements_with_states/beside.rs", "packs_have_states")),
         ("thr", together("states::lanes_and_threads")),
         ("at", shown("examples/tests/hull_memory.rs", "states_are_the_convolution_over_the_run")),
         ("tab", together("states::table_and_plot")),
@@ -196,13 +208,13 @@ pub const STATES: Row = Row {
         (
             "mon",
             shown(
-                "tests/tests/elements_with_states/derivatives.rs",
+                "tests/tests/systems/elements_with_states/derivatives.rs",
                 "energy_is_balanced_and_forces_are_those_of_the_elements",
             ),
         ),
         ("fwd", together("states::of_runs")),
         ("adj", together("states::of_runs")),
-        ("lin", shown("tests/tests/elements_with_states/derivatives.rs", "linearize_is_the_matrix")),
+        ("lin", shown("tests/tests/systems/elements_with_states/derivatives.rs", "linearize_is_the_matrix")),
         ("dst", together("states::of_a_step")),
         ("run", together("states::along_a_run")),
         ("stu", together("states::study")),
@@ -215,7 +227,7 @@ pub const MODES: Row = Row {
     clause: "`modes(panel, …)`",
     cells: &[
         ("fix", together("modes::steps")),
-        ("ada", shown("tests/tests/flexible/beam.rs", "what_no_force_acts_on_keeps_its_momenta")),
+        ("ada", shown("tests/tests/systems/flexible/beam.rs", "what_no_force_acts_on_keeps_its_momenta")),
         ("tay", together("modes::series")),
         ("ros", together("modes::stiff")),
         ("imp", together("modes::implicit")),
@@ -224,14 +236,14 @@ pub const MODES: Row = Row {
         ("one", together("modes::by_hand")),
         ("lan", together("modes::lanes_and_threads")),
         ("thr", together("modes::lanes_and_threads")),
-        ("at", shown("tests/tests/flexible/spin.rs", "a_beam_that_spins_up_lags_and_comes_back")),
+        ("at", shown("tests/tests/systems/flexible/spin.rs", "a_beam_that_spins_up_lags_and_comes_back")),
         ("tab", together("modes::table_and_plot")),
         ("plt", together("modes::table_and_plot")),
         ("pag", together("modes::page")),
         ("mon", together("modes::energy")),
         ("fwd", together("modes::of_runs")),
         ("adj", together("modes::of_runs")),
-        ("lin", shown("tests/tests/flexible/beam.rs", "a_free_spacecraft_has_the_frequencies_of_its_beams")),
+        ("lin", shown("tests/tests/systems/flexible/beam.rs", "a_free_spacecraft_has_the_frequencies_of_its_beams")),
         ("dst", together("modes::of_a_step")),
         ("run", together("modes::along_a_run")),
         ("stu", together("modes::study")),
@@ -260,7 +272,7 @@ pub const TABLE_OF_ONE: Row = Row {
         ("mon", together("table_of_one::energy")),
         ("fwd", together("table_of_one::of_runs")),
         ("adj", together("table_of_one::of_runs")),
-        ("lin", shown("tests/tests/functions.rs", "values_and_derivatives")),
+        ("lin", shown("tests/tests/derivatives/functions.rs", "values_and_derivatives")),
         ("dst", together("table_of_one::of_a_step")),
         ("run", together("table_of_one::along_a_run")),
         ("stu", together("table_of_one::study")),
@@ -273,7 +285,7 @@ pub const TABLES: Row = Row {
     clause: "`table(lift, axes = [ALPHA, MACH], values = LIFT)`",
     cells: &[
         ("fix", together("table_of_two::steps")),
-        ("ada", shown("tests/tests/tables.rs", "a_run_by_a_table")),
+        ("ada", shown("tests/tests/derivatives/tables.rs", "a_run_by_a_table")),
         ("tay", refused(TABLES_HAVE_NO_SERIES)),
         ("ros", together("table_of_two::stiff")),
         ("imp", together("table_of_two::implicit")),
@@ -289,7 +301,7 @@ pub const TABLES: Row = Row {
         ("mon", together("table_of_two::energy")),
         ("fwd", together("table_of_two::of_runs")),
         ("adj", together("table_of_two::of_runs")),
-        ("lin", shown("tests/tests/tables.rs", "a_table_is_its_formula")),
+        ("lin", shown("tests/tests/derivatives/tables.rs", "a_table_is_its_formula")),
         ("dst", together("table_of_two::of_a_step")),
         ("run", together("table_of_two::along_a_run")),
         ("stu", together("table_of_two::study")),
@@ -310,16 +322,16 @@ pub const INPUTS: Row = Row {
         ),
         ("ada", shown("crates/gauss-contact/tests/laws/pushes.rs", "a_body_at_rest_without_contacts_is_pushed_too")),
         ("tay", refused(NO_SERIES).by("tests/compile_fail/taylor.rs", "main")),
-        ("ros", shown("tests/tests/rosenbrock.rs", "order_4_in_every_chart_with_feedback")),
+        ("ros", shown("tests/tests/runs/rosenbrock.rs", "order_4_in_every_chart_with_feedback")),
         ("imp", shown("gauss-runtime/src/integrate/structure/collocation_tests.rs", "orders_in_both_forms")),
-        ("evt", shown("tests/tests/touching.rs", "a_motor_holds_a_pendulum_at_its_stop")),
+        ("evt", shown("tests/tests/touching/main.rs", "a_motor_holds_a_pendulum_at_its_stop")),
         (
             "stp",
             shown("crates/gauss-contact/tests/many/spinning.rs", "gains_of_a_controller_are_held_for_a_step")
                 .but("held for a step"),
         ),
-        ("one", shown("tests/tests/rosenbrock.rs", "order_4_in_every_chart_with_feedback")),
-        ("lan", shown("tests/tests/batch/ensembles.rs", "pushes_that_are_over_soon_are_seen_in_every_lane")),
+        ("one", shown("tests/tests/runs/rosenbrock.rs", "order_4_in_every_chart_with_feedback")),
+        ("lan", shown("tests/tests/runs/batch/ensembles.rs", "pushes_that_are_over_soon_are_seen_in_every_lane")),
         ("thr", together("input::lanes_and_threads")),
         (
             "at",
@@ -334,9 +346,9 @@ pub const INPUTS: Row = Row {
         ("mon", shown("gauss-runtime/src/monitor/balance.rs", "energy_is_what_was_supplied_up_to_the_quadrature")),
         ("fwd", shown("crates/gauss-sensitivity/tests/derivatives/groups.rs", "backward_is_forward")),
         ("adj", shown("crates/gauss-sensitivity/tests/derivatives/groups.rs", "backward_is_forward")),
-        ("lin", shown("tests/tests/linearize.rs", "groups_and_scalars")),
-        ("dst", shown("tests/tests/discrete.rs", "groups_and_scalars").but("held for the step")),
-        ("run", shown("tests/tests/discrete.rs", "steps_after_one_another").but("held for each step")),
+        ("lin", shown("tests/tests/derivatives/linearize.rs", "groups_and_scalars")),
+        ("dst", shown("tests/tests/derivatives/discrete.rs", "groups_and_scalars").but("held for the step")),
+        ("run", shown("tests/tests/derivatives/discrete.rs", "steps_after_one_another").but("held for each step")),
         ("stu", together("input::study")),
         ("py", shown("examples/python/tests/test_runs.py", "test_inputs")),
     ],

@@ -11,8 +11,8 @@ pub const SAMPLED: Row = Row {
     name: "Controllers that sample",
     clause: "`Simulation::sampled(period, |t, q, z| …)`",
     cells: &[
-        ("fix", shown("tests/tests/sampled.rs", "one_run_has_the_bits_of_a_loop_of_runs")),
-        ("ada", shown("tests/tests/sampled.rs", "one_run_has_the_bits_of_a_loop_of_runs")),
+        ("fix", shown("tests/tests/runs/sampled.rs", "one_run_has_the_bits_of_a_loop_of_runs")),
+        ("ada", shown("tests/tests/runs/sampled.rs", "one_run_has_the_bits_of_a_loop_of_runs")),
         (
             "tay",
             refused("it needs an input, and inputs have no power series: a compile error at `taylor`")
@@ -25,12 +25,12 @@ pub const SAMPLED: Row = Row {
         ("one", moot(BETWEEN_STEPS)),
         ("lan", missing("`Batch` and `Ensemble` have no such method")),
         ("thr", missing("`Batch` and `Ensemble` have no such method")),
-        ("at", shown("tests/tests/sampled.rs", "states_between_have_the_input_that_was_held")),
-        ("tab", shown("tests/tests/sampled.rs", "tables_tell_what_was_held")),
+        ("at", shown("tests/tests/runs/sampled.rs", "states_between_have_the_input_that_was_held")),
+        ("tab", shown("tests/tests/runs/sampled.rs", "tables_tell_what_was_held")),
         ("plt", together("sampled::table_and_plot")),
         ("pag", together("sampled::page")),
-        ("mon", shown("tests/tests/sampled.rs", "the_balance_of_energy_is_that_of_what_was_held")),
-        ("fwd", shown("tests/tests/sampled.rs", "derivatives_pass_through_samples").but("in dual numbers")),
+        ("mon", shown("tests/tests/runs/sampled.rs", "the_balance_of_energy_is_that_of_what_was_held")),
+        ("fwd", shown("tests/tests/runs/sampled.rs", "derivatives_pass_through_samples").but("in dual numbers")),
         (
             "adj",
             missing("`Run::input` may hold a number over each interval; a controller that samples states has no place"),
@@ -38,9 +38,10 @@ pub const SAMPLED: Row = Row {
         ("lin", moot(AT_A_STATE)),
         (
             "dst",
-            shown("tests/tests/discrete.rs", "differences_of_the_same_step").but("the step of an input that is held"),
+            shown("tests/tests/derivatives/discrete.rs", "differences_of_the_same_step")
+                .but("the step of an input that is held"),
         ),
-        ("run", shown("tests/tests/discrete.rs", "steps_after_one_another")),
+        ("run", shown("tests/tests/derivatives/discrete.rs", "steps_after_one_another")),
         ("stu", together("sampled::study")),
         (
             "py",
@@ -70,10 +71,13 @@ pub const EVENTS: Row = Row {
         ),
         (
             "tay",
-            shown("tests/tests/taylor/runs.rs", "events_and_states_between_samples_have_the_accuracy_of_the_method"),
+            shown(
+                "tests/tests/runs/taylor/runs.rs",
+                "events_and_states_between_samples_have_the_accuracy_of_the_method",
+            ),
         ),
         ("ros", together("event::stiff")),
-        ("imp", shown("tests/tests/events.rs", "a_ball_bounces_by_every_method")),
+        ("imp", shown("tests/tests/runs/events.rs", "a_ball_bounces_by_every_method")),
         (
             "evt",
             shown(
@@ -87,7 +91,7 @@ pub const EVENTS: Row = Row {
                 .but("between the ends of steps; what passes there and back within one is not seen"),
         ),
         ("one", moot("a step knows no events: the search belongs to `Simulation`")),
-        ("lan", shown("tests/tests/batch/ensembles.rs", "events_are_those_of_each_run")),
+        ("lan", shown("tests/tests/runs/batch/ensembles.rs", "events_are_those_of_each_run")),
         (
             "thr",
             shown("examples/python/tests/test_runs.py", "test_ensembles_have_parameters_and_ends_of_their_own")
@@ -131,25 +135,28 @@ pub const JUMPS: Row = Row {
     name: "Jumps of the state",
     clause: "`event(…).then(|state| …)`, `then_through`",
     cells: &[
-        ("fix", shown("tests/tests/events.rs", "a_ball_bounces_by_every_method")),
-        ("ada", shown("tests/tests/events.rs", "a_ball_bounces_by_every_method")),
-        ("tay", shown("tests/tests/events.rs", "a_ball_bounces_by_every_method")),
+        ("fix", shown("tests/tests/runs/events.rs", "a_ball_bounces_by_every_method")),
+        ("ada", shown("tests/tests/runs/events.rs", "a_ball_bounces_by_every_method")),
+        ("tay", shown("tests/tests/runs/events.rs", "a_ball_bounces_by_every_method")),
         ("ros", together("jump::stiff")),
-        ("imp", shown("tests/tests/events.rs", "a_ball_bounces_by_every_method")),
+        ("imp", shown("tests/tests/runs/events.rs", "a_ball_bounces_by_every_method")),
         ("evt", missing(NOT_IN_RUNS)),
         ("stp", missing("events of steps change nothing: begin another `ContactStepper` at the state after a jump")),
         ("one", moot(BETWEEN_STEPS)),
-        ("lan", shown("tests/tests/events.rs", "runs_in_lanes_pile_up_and_are_told_as_alone")),
+        ("lan", shown("tests/tests/runs/events.rs", "runs_in_lanes_pile_up_and_are_told_as_alone")),
         ("thr", together("jump::threads")),
-        ("at", shown("tests/tests/events.rs", "a_ball_bounces_by_every_method")),
+        ("at", shown("tests/tests/runs/events.rs", "a_ball_bounces_by_every_method")),
         ("tab", together("jump::table_and_plot")),
         ("plt", together("jump::table_and_plot")),
         ("pag", shown("crates/gauss-playback/tests/page.rs", "a_jump_is_a_jump")),
         ("mon", together("jump::energy")),
         (
             "fwd",
-            shown("tests/tests/duals/events.rs", "times_of_impacts_and_the_flight_after_them_have_derivatives")
-                .but("in dual numbers; `Run` of `gauss-sensitivity` has no jumps"),
+            shown(
+                "tests/tests/derivatives/duals/events.rs",
+                "times_of_impacts_and_the_flight_after_them_have_derivatives",
+            )
+            .but("in dual numbers; `Run` of `gauss-sensitivity` has no jumps"),
         ),
         ("adj", missing("`Run` has `until`, and no jumps")),
         ("lin", moot(AT_A_STATE)),
@@ -186,7 +193,7 @@ pub const RANGES: Row = Row {
         ("tay", refused(FALLS_THROUGH)),
         ("ros", refused(FALLS_THROUGH)),
         ("imp", refused(FALLS_THROUGH)),
-        ("evt", shown("tests/tests/touching.rs", "a_motor_holds_a_pendulum_at_its_stop")),
+        ("evt", shown("tests/tests/touching/main.rs", "a_motor_holds_a_pendulum_at_its_stop")),
         ("stp", shown("crates/gauss-contact/tests/many/several.rs", "a_leg_between_its_stops_gains_little")),
         ("one", refused(FREE_STEP).by(BY_HAND, REFUSES_BY_HAND)),
         (
@@ -197,7 +204,7 @@ pub const RANGES: Row = Row {
             ),
         ),
         ("thr", shown(TOUCHING, "ranges_on_threads_have_the_bits_of_one")),
-        ("at", shown("tests/tests/touching.rs", "a_motor_holds_a_pendulum_at_its_stop").but("by events")),
+        ("at", shown("tests/tests/touching/main.rs", "a_motor_holds_a_pendulum_at_its_stop").but("by events")),
         ("tab", shown(TOUCHING, "ranges_in_tables_and_plots")),
         ("plt", shown(TOUCHING, "ranges_in_tables_and_plots")),
         ("pag", shown(TOUCHING, "ranges_in_pages")),
@@ -227,18 +234,27 @@ pub const CONTACTS: Row = Row {
     name: "Contacts",
     clause: "`contact(foot, point = tip, friction = mu)`, `ground(…)`, `self_contact(…)`",
     cells: &[
-        ("fix", refused(FALLS_THROUGH).by("tests/tests/touching.rs", "runs_without_contact_forces_refuse_contacts")),
-        ("ada", refused(FALLS_THROUGH).by("tests/tests/touching.rs", "runs_without_contact_forces_refuse_contacts")),
+        (
+            "fix",
+            refused(FALLS_THROUGH).by("tests/tests/touching/main.rs", "runs_without_contact_forces_refuse_contacts"),
+        ),
+        (
+            "ada",
+            refused(FALLS_THROUGH).by("tests/tests/touching/main.rs", "runs_without_contact_forces_refuse_contacts"),
+        ),
         ("tay", refused(FALLS_THROUGH)),
         ("ros", refused(FALLS_THROUGH)),
-        ("imp", refused(FALLS_THROUGH).by("tests/tests/touching.rs", "runs_without_contact_forces_refuse_contacts")),
-        ("evt", shown("tests/tests/touching.rs", "a_sliding_ball_begins_to_roll")),
+        (
+            "imp",
+            refused(FALLS_THROUGH).by("tests/tests/touching/main.rs", "runs_without_contact_forces_refuse_contacts"),
+        ),
+        ("evt", shown("tests/tests/touching/main.rs", "a_sliding_ball_begins_to_roll")),
         ("stp", shown("crates/gauss-contact/tests/laws/steps.rs", "a_box_falls_on_a_corner_and_lies_down")),
         ("one", refused(FREE_STEP).by(BY_HAND, REFUSES_BY_HAND)),
         (
             "lan",
             shown("crates/gauss-contact/tests/many/lanes.rs", "a_lane_has_the_bits_of_a_stepper_of_its_own")
-                .but("`Batch` refuses: `ensembles_refuse_contacts` in `tests/tests/touching.rs`"),
+                .but("`Batch` refuses: `ensembles_refuse_contacts` in `tests/tests/touching/main.rs`"),
         ),
         (
             "thr",
@@ -269,11 +285,15 @@ pub const CONTACTS: Row = Row {
         ),
         (
             "fwd",
-            shown("tests/tests/duals/contacts.rs", "bounces_have_the_derivatives_of_their_closed_form")
+            shown("tests/tests/derivatives/duals/contacts.rs", "bounces_have_the_derivatives_of_their_closed_form")
                 .but("by events, in dual numbers; `gauss-sensitivity` refuses, `contacts_are_refused`"),
         ),
         ("adj", refused(FALLS_THROUGH).but("as forward; `contacts_are_refused` asks `run` alone, not `gradient`")),
-        ("lin", shown("tests/tests/duals/contacts.rs", "a_system_is_linearised_in_its_mode").but(FREE_DERIVATIVES)),
+        (
+            "lin",
+            shown("tests/tests/derivatives/duals/contacts.rs", "a_system_is_linearised_in_its_mode")
+                .but(FREE_DERIVATIVES),
+        ),
         (
             "dst",
             shown(

@@ -3,8 +3,11 @@
 
 mod asked;
 mod balls;
+mod ground;
 mod mechanisms;
+mod placed_robots;
 mod quadrotor;
+mod self_contact;
 mod springs;
 
 use std::fs;

@@ -4,13 +4,11 @@
 //! own D and b no test here asks a kernel for. Units of length, mass and time are from 10⁻⁶ to 10⁶, numbers in these
 //! units from 0.1 to 10.
 
-#[path = "../common/dual.rs"]
-mod dual;
-
-use dual::Dual;
 use gauss_contact::{ContactRun, EventKind, Impact};
 use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::prelude::*;
+
+use crate::dual::Dual;
 
 /// A mass on two legs with feet on steps of their own, and a hinge between the legs that rubs.
 #[derive(GaussDynamics)]

@@ -1,0 +1,14 @@
+//! Runs: methods and their steps, what happens within them, how they end, and many at once.
+
+mod adapters;
+mod batch;
+mod between;
+mod endings;
+mod events;
+mod higher_precision;
+mod integrators;
+mod lanes;
+mod rosenbrock;
+mod sampled;
+mod splitting;
+mod taylor;
