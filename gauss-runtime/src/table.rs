@@ -4,18 +4,22 @@
 //! Between the points a [`Linear`] table is a straight line from each to the next, a [`Cubic`] one the natural cubic
 //! spline, which has two continuous derivatives. Beyond the first and the last point both go on straight. The points
 //! are constants, and so are the coefficients: they are worked out by the compiler, which refuses points that are not
-//! in order.
+//! in order. Of points that come at run time there is [`Table`], a grid of any size.
 //!
 //! A piece is found by one comparison for each point, without branches, so that lanes, dual numbers and numbers with
 //! error bounds find their own.
 
+#[cfg(feature = "alloc")]
+mod at_run_time;
 mod grid;
 mod spline;
 
+#[cfg(feature = "alloc")]
+pub use at_run_time::{Table, TableFault};
 pub use grid::{Grid, Joined, axis};
 
 use crate::real::Real;
-use spline::curvatures;
+use spline::{Node, curvatures};
 
 /// Straight lines through N points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,12 +91,18 @@ impl<const N: usize> Cubic<N> {
     #[must_use]
     pub const fn through(points: &[[f64; 2]; N]) -> Self {
         check(points);
-        let curvature = curvatures(points);
-        let mut pieces = Pieces { start: [0.0; N], coefficients: [[0.0; 4]; N], before: 0.0 };
+        let mut nodes = [Node::new([0.0; 2]); N];
         let mut i = 0;
+        while i < N {
+            nodes[i] = Node::new(points[i]);
+            i += 1;
+        }
+        curvatures(&mut nodes);
+        let mut pieces = Pieces { start: [0.0; N], coefficients: [[0.0; 4]; N], before: 0.0 };
+        i = 0;
         while i + 1 < N {
             let h = points[i + 1][0] - points[i][0];
-            let (a, b) = (curvature[i], curvature[i + 1]);
+            let (a, b) = (nodes[i].curvature, nodes[i + 1].curvature);
             let secant = (points[i + 1][1] - points[i][1]) / h;
             pieces.start[i] = points[i][0];
             pieces.coefficients[i] = [points[i][1], secant - h * (2.0 * a + b) / 6.0, a / 2.0, (b - a) / (6.0 * h)];

@@ -1,6 +1,6 @@
 //! Functions of up to three numbers by their values on a grid.
 
-use super::spline::{slopes_of_parabolas, slopes_of_spline};
+use super::spline::{Node, slopes_of_parabolas, slopes_of_spline};
 use crate::real::Real;
 
 /// Interpolation between the points of a table, along each of its axes.
@@ -158,18 +158,13 @@ impl<const N: usize, const M: usize, const L: usize, const K: usize> Grid<N, M, 
             Joined::Cubic => true,
         };
         assert!(K == 1 << variables, "2, 4 and 8 numbers are kept of the points of one, two and three variables");
-        let mut by = 0;
-        while by < variables {
-            let mut k = 0;
-            while k < 1 << by {
-                match by {
-                    0 => self.slopes_along_first(k, spline),
-                    1 => self.slopes_along_second(k, spline),
-                    _ => self.slopes_along_third(k, spline),
-                }
-                k += 1;
-            }
-            by += 1;
+        let points = self.points.as_flattened_mut().as_flattened_mut().as_flattened_mut();
+        add_slopes(points, 0, [M * L, K], &mut Node::along(&self.axes.0), spline);
+        if variables > 1 {
+            add_slopes(points, 1, [L, K], &mut Node::along(&self.axes.1), spline);
+        }
+        if variables > 2 {
+            add_slopes(points, 2, [1, K], &mut Node::along(&self.axes.2), spline);
         }
         self
     }
@@ -177,69 +172,6 @@ impl<const N: usize, const M: usize, const L: usize, const K: usize> Grid<N, M, 
     /// The indices of a point, by its number.
     const fn place(number: usize) -> [usize; 3] {
         [number / (M * L), number / L % M, number % L]
-    }
-
-    /// Adds the slopes of number k of each point, along the lines of the grid of the first axis.
-    const fn slopes_along_first(&mut self, k: usize, spline: bool) {
-        let mut line = 0;
-        while line < M * L {
-            let (b, c) = (line / L, line % L);
-            let mut points = [[0.0; 2]; N];
-            let mut i = 0;
-            while i < N {
-                points[i] = [self.axes.0[i], self.points[i][b][c][k]];
-                i += 1;
-            }
-            let slopes = if spline { slopes_of_spline(&points) } else { slopes_of_parabolas(&points) };
-            i = 0;
-            while i < N {
-                self.points[i][b][c][k | 1] = slopes[i];
-                i += 1;
-            }
-            line += 1;
-        }
-    }
-
-    /// The same along the second axis.
-    const fn slopes_along_second(&mut self, k: usize, spline: bool) {
-        let mut line = 0;
-        while line < N * L {
-            let (a, c) = (line / L, line % L);
-            let mut points = [[0.0; 2]; M];
-            let mut i = 0;
-            while i < M {
-                points[i] = [self.axes.1[i], self.points[a][i][c][k]];
-                i += 1;
-            }
-            let slopes = if spline { slopes_of_spline(&points) } else { slopes_of_parabolas(&points) };
-            i = 0;
-            while i < M {
-                self.points[a][i][c][k | 2] = slopes[i];
-                i += 1;
-            }
-            line += 1;
-        }
-    }
-
-    /// The same along the third axis.
-    const fn slopes_along_third(&mut self, k: usize, spline: bool) {
-        let mut line = 0;
-        while line < N * M {
-            let (a, b) = (line / M, line % M);
-            let mut points = [[0.0; 2]; L];
-            let mut i = 0;
-            while i < L {
-                points[i] = [self.axes.2[i], self.points[a][b][i][k]];
-                i += 1;
-            }
-            let slopes = if spline { slopes_of_spline(&points) } else { slopes_of_parabolas(&points) };
-            i = 0;
-            while i < L {
-                self.points[a][b][i][k | 4] = slopes[i];
-                i += 1;
-            }
-            line += 1;
-        }
     }
 
     /// The derivative of these orders, by each variable, at x; orders of zero are the value. Of straight lines there
@@ -250,40 +182,86 @@ impl<const N: usize, const M: usize, const L: usize, const K: usize> Grid<N, M, 
         const { assert!(1 <= D && D <= 3, "a table has one, two or three variables") }
         let of = |k: usize| if k < D { (orders[k], x[k]) } else { (0, T::zero()) };
         let smooth = K > 1;
-        self.sum(
-            &Weights::new(&self.axes.0, smooth, of(0)),
-            &Weights::new(&self.axes.1, smooth, of(1)),
-            &Weights::new(&self.axes.2, smooth, of(2)),
+        sum(
+            self.points.as_flattened().as_flattened().as_flattened(),
+            [M, L, K],
+            &Weights::<T, N>::new(&self.axes.0, smooth, of(0)),
+            &Weights::<T, M>::new(&self.axes.1, smooth, of(1)),
+            &Weights::<T, L>::new(&self.axes.2, smooth, of(2)),
         )
-    }
-
-    /// Sums values and slopes of the points times the weights, axis by axis from the last one.
-    #[inline(always)]
-    fn sum<T: Real>(&self, first: &Weights<T, N>, second: &Weights<T, M>, third: &Weights<T, L>) -> T {
-        let mut sum = T::zero();
-        for a in first.from..=first.to {
-            let mut of_first = [T::zero(); 2];
-            for b in second.from..=second.to {
-                let mut of_second = [T::zero(); 4];
-                for c in third.from..=third.to {
-                    for (k, &number) in self.points[a][b][c].iter().enumerate() {
-                        of_second[k & 3] = T::fma(third.of(c, k & 4), T::from_f64(number), of_second[k & 3]);
-                    }
-                }
-                for k in 0..K.min(4) {
-                    of_first[k & 1] = T::fma(second.of(b, k & 2), of_second[k], of_first[k & 1]);
-                }
-            }
-            for k in 0..K.min(2) {
-                sum = T::fma(first.of(a, k), of_first[k], sum);
-            }
-        }
-        sum
     }
 }
 
-/// Weights of the values, and of the slopes, at the points of an axis for a place between them.
-struct Weights<T, const N: usize> {
+/// Adds the slopes along an axis: those of the numbers of each point that are known before it. `nodes` are above the
+/// numbers of the axis; behind it come so many points, of each of which so many numbers are kept.
+pub(super) const fn add_slopes(
+    points: &mut [f64],
+    axis: usize,
+    [behind, kept]: [usize; 2],
+    nodes: &mut [Node],
+    spline: bool,
+) {
+    let lines = points.len() / (kept * nodes.len());
+    let mut line = 0;
+    while line < lines {
+        let first = line / behind * nodes.len() * behind + line % behind;
+        let mut k = 0;
+        while k < 1 << axis {
+            let mut i = 0;
+            while i < nodes.len() {
+                nodes[i].y = points[(first + i * behind) * kept + k];
+                i += 1;
+            }
+            if spline {
+                slopes_of_spline(nodes);
+            } else {
+                slopes_of_parabolas(nodes);
+            }
+            i = 0;
+            while i < nodes.len() {
+                points[(first + i * behind) * kept + (k | 1 << axis)] = nodes[i].slope;
+                i += 1;
+            }
+            k += 1;
+        }
+        line += 1;
+    }
+}
+
+/// Sums values and slopes of the points times the weights, axis by axis from the last one. There are so many points
+/// along the second and the third axis, and so many numbers of each point.
+#[inline(always)]
+pub(super) fn sum<T: Real, const N: usize, const M: usize, const L: usize>(
+    points: &[f64],
+    [seconds, thirds, kept]: [usize; 3],
+    first: &Weights<T, N>,
+    second: &Weights<T, M>,
+    third: &Weights<T, L>,
+) -> T {
+    let mut sum = T::zero();
+    for a in first.from..=first.to {
+        let mut of_first = [T::zero(); 2];
+        for b in second.from..=second.to {
+            let mut of_second = [T::zero(); 4];
+            for c in third.from..=third.to {
+                let point = ((a * seconds + b) * thirds + c) * kept;
+                for (k, &number) in points[point..point + kept].iter().enumerate() {
+                    of_second[k & 3] = T::fma(third.of(c, k & 4), T::from_f64(number), of_second[k & 3]);
+                }
+            }
+            for k in 0..kept.min(4) {
+                of_first[k & 1] = T::fma(second.of(b, k & 2), of_second[k], of_first[k & 1]);
+            }
+        }
+        for k in 0..kept.min(2) {
+            sum = T::fma(first.of(a, k), of_first[k], sum);
+        }
+    }
+    sum
+}
+
+/// Weights of the values, and of the slopes, at the points of an axis for a place between them: of up to N points.
+pub(super) struct Weights<T, const N: usize> {
     /// The first and the last point that counts in some lane.
     from: usize,
     to: usize,
@@ -294,9 +272,9 @@ struct Weights<T, const N: usize> {
 impl<T: Real, const N: usize> Weights<T, N> {
     /// Weights for the derivative of that order at x.
     #[inline(always)]
-    fn new(axis: &[f64; N], smooth: bool, (order, x): (u8, T)) -> Self {
+    pub fn new(axis: &[f64], smooth: bool, (order, x): (u8, T)) -> Self {
         let (zero, mut own) = (T::zero(), Self { from: 0, to: 0, values: [T::zero(); N], slopes: [T::zero(); N] });
-        let Some(last) = N.checked_sub(2) else {
+        let Some(last) = axis.len().checked_sub(2) else {
             own.values[0] = T::one();
             return own;
         };
@@ -316,10 +294,10 @@ impl<T: Real, const N: usize> Weights<T, N> {
                 if i == from { weight } else { T::select_lt(x, begin, zero, weight) }
             };
             let [before, after, slope_before, slope_after] = weights.map(chosen);
-            own.values[i] += before;
-            own.values[i + 1] += after;
-            own.slopes[i] += slope_before;
-            own.slopes[i + 1] += slope_after;
+            own.values[i - from] += before;
+            own.values[i + 1 - from] += after;
+            own.slopes[i - from] += slope_before;
+            own.slopes[i + 1 - from] += slope_after;
         }
         own
     }
@@ -327,7 +305,8 @@ impl<T: Real, const N: usize> Weights<T, N> {
     /// Weight of the slope at a point, if `slope` is not zero, else of the value.
     #[inline(always)]
     fn of(&self, point: usize, slope: usize) -> T {
-        if slope == 0 { self.values[point] } else { self.slopes[point] }
+        let place = point - self.from;
+        if slope == 0 { self.values[place] } else { self.slopes[place] }
     }
 }
 
