@@ -1,9 +1,12 @@
-//! The parameters of a struct as plain data: what its fields hold, and what `kernel()` checks of them.
+//! The parameters of a struct as plain data: what its fields hold, what `kernel()` checks of them, and the tables that
+//! its equations call.
 //!
 //! `#[derive(GaussDynamics)]` writes the same checks as Rust. A tool that makes kernels at run time reads them here:
 //! each is a [`Rule`] about numbers, which are given, or computed from those by a program.
 
 use crate::program::Program;
+
+pub use crate::terms::Interpolation;
 
 /// The fields of a struct, and what must hold of their numbers. It refers to no scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +30,23 @@ pub struct Parameters {
     /// Bodies without mass may move with others: where [`Rule::MassInSum`] and its like found one, the mass matrix is
     /// to be regular.
     pub in_sum: bool,
+    /// Functions that the struct declares, by the index that programs call each by; none where it is one of Rust.
+    pub tables: Vec<Option<Table>>,
+}
+
+/// A function by its values at points. Its numbers are constants of Rust, which are not read here.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct Table {
+    /// The name of the function in the equations.
+    pub name: String,
+    /// Paths of the constants with the numbers along each axis of the grid; none: the values are points [x, y].
+    pub axes: Vec<String>,
+    /// The path of the constant with the values, an array of as many dimensions as there are axes.
+    pub values: String,
+    /// Interpolation between the points.
+    pub joined: Interpolation,
 }
 
 /// Numbers that are given together: a field, or a part of one that is a body.

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use gauss_runtime::error::ParameterError;
+use gauss_runtime::table::TableFault;
 
 /// Place of a mistake.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -59,10 +60,7 @@ impl Mistakes {
 
 impl fmt::Display for Mistakes {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.list.iter().enumerate().try_for_each(|(k, mistake)| {
-            let separator = if k > 0 { "\n" } else { "" };
-            write!(f, "{separator}{mistake}")
-        })
+        lines(f, &self.list, "\n")
     }
 }
 
@@ -95,6 +93,8 @@ pub enum Misgiven {
     Missing(String),
     /// A parameter that is given more than once.
     Repeated(String),
+    /// The constant of a table whose numbers were not given before, by `Model::with_tables`.
+    Table(String),
     /// A parameter with another count of numbers.
     Count {
         /// Its name.
@@ -112,6 +112,9 @@ impl fmt::Display for Misgiven {
             Self::Unknown(name) => write!(f, "the model has no parameter `{name}`"),
             Self::Missing(name) => write!(f, "`{name}` is not given"),
             Self::Repeated(name) => write!(f, "`{name}` is given more than once"),
+            Self::Table(name) => {
+                write!(f, "the numbers of the table in `{name}` are not given; add them by `with_tables`")
+            }
             Self::Count { name, expected, found } => {
                 write!(f, "`{name}` has {expected} numbers, and {found} are given")
             }
@@ -123,10 +126,7 @@ impl fmt::Display for KernelError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Parameters(error) => error.fmt(f),
-            Self::Given(list) => list.iter().enumerate().try_for_each(|(k, misgiven)| {
-                let separator = if k > 0 { "; " } else { "" };
-                write!(f, "{separator}{misgiven}")
-            }),
+            Self::Given(list) => lines(f, list, "; "),
             Self::TooLarge { rows, most } => {
                 write!(f, "a check of the parameters needs a matrix of {rows} rows; at run time {most} are supported")
             }
@@ -140,6 +140,105 @@ impl From<ParameterError> for KernelError {
     fn from(error: ParameterError) -> Self {
         Self::Parameters(error)
     }
+}
+
+/// An array of a table that is not as the model has it.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum TableMistake {
+    /// No table has its numbers in a constant of that name.
+    Unknown {
+        /// The name.
+        name: String,
+        /// The names of all constants of tables.
+        known: Vec<String>,
+    },
+    /// A constant whose array is not given.
+    Missing(String),
+    /// A constant whose array is given more than once.
+    Repeated(String),
+    /// An array of another shape.
+    Shape {
+        /// The name of its constant.
+        name: String,
+        /// Its axes; none where any length is right.
+        expected: Vec<Option<usize>>,
+        /// The axes of the array given.
+        found: Vec<usize>,
+    },
+    /// Numbers that make no table.
+    Fault {
+        /// The name of their constant.
+        name: String,
+        /// The fault.
+        fault: TableFault,
+    },
+}
+
+impl TableMistake {
+    /// The name of the constant.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Missing(name) | Self::Repeated(name) => name,
+            Self::Unknown { name, .. } | Self::Shape { name, .. } | Self::Fault { name, .. } => name,
+        }
+    }
+}
+
+/// Axes as Python writes them.
+fn written(axes: impl Iterator<Item = String>) -> String {
+    let axes: Vec<String> = axes.collect();
+    let comma = if axes.len() == 1 { "," } else { "" };
+    format!("({}{comma})", axes.join(", "))
+}
+
+impl fmt::Display for TableMistake {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unknown { name, known } if known.is_empty() => {
+                write!(f, "`{name}` is no constant of a table: the model has no tables")
+            }
+            Self::Unknown { name, known } => {
+                write!(f, "`{name}` is no constant of a table; there are {}", known.join(", "))
+            }
+            Self::Missing(name) => write!(f, "`{name}`, the constant of a table, is not given"),
+            Self::Repeated(name) => write!(f, "`{name}` is given more than once"),
+            Self::Shape { name, expected, found } => {
+                let expected = expected.iter().map(|own| own.map_or_else(|| "n".to_owned(), |own| own.to_string()));
+                let found = found.iter().map(usize::to_string);
+                write!(f, "`{name}` has shape {}; expected {}", written(found), written(expected))
+            }
+            Self::Fault { name, fault } => write!(f, "`{name}`: {fault}"),
+        }
+    }
+}
+
+/// Every array that is not as the model has it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TableMistakes {
+    pub(crate) list: Vec<TableMistake>,
+}
+
+impl TableMistakes {
+    /// The mistakes: at least one.
+    pub fn as_slice(&self) -> &[TableMistake] {
+        &self.list
+    }
+}
+
+impl fmt::Display for TableMistakes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        lines(f, &self.list, "\n")
+    }
+}
+
+impl std::error::Error for TableMistakes {}
+
+fn lines<T: fmt::Display>(f: &mut fmt::Formatter<'_>, list: &[T], between: &str) -> fmt::Result {
+    list.iter().enumerate().try_for_each(|(k, own)| {
+        let separator = if k > 0 { between } else { "" };
+        write!(f, "{separator}{own}")
+    })
 }
 
 /// Why a method is not called.

@@ -43,9 +43,14 @@ impl Model {
     /// `kernel()` of the compiled struct checks them.
     ///
     /// # Errors
-    /// Names and counts that are not the model's; parameters that no body has: each all at once.
+    /// Names and counts that are not the model's, and tables without numbers; parameters that no body has: each all at
+    /// once.
     pub fn kernel(&self, parameters: &[(&str, &[f64])]) -> Result<Kernel, KernelError> {
-        let numbers = numbers_of(self.parameters(), parameters).map_err(KernelError::Given)?;
+        let mut wrong = Vec::new();
+        if !self.derived.tables.has_all(&self.derived.data.parameters.tables) {
+            wrong.extend(self.table_constants().into_iter().map(|name| Misgiven::Table(name.to_owned())));
+        }
+        let numbers = numbers_of(self.parameters(), parameters, wrong).map_err(KernelError::Given)?;
         Kernel::new(self.clone(), &numbers)
     }
 }
@@ -56,7 +61,7 @@ impl Kernel {
         let read: Vec<f64> = derived.parameters.read.iter().map(|&k| numbers[k]).collect();
         let run = |program, arguments: &[&[f64]], count: usize| {
             let mut outputs = vec![0.0; count];
-            interpreted(program).run(arguments, &mut outputs);
+            interpreted(program, &model.derived.tables).run(arguments, &mut outputs);
             outputs
         };
         let computed = &derived.parameters.computed;
@@ -95,7 +100,8 @@ impl Kernel {
                 configuration[unit].iter_mut().for_each(|x| *x /= length);
             }
             let mut matrix = vec![0.0; program.code.outputs.len()];
-            interpreted(program).run(&[&self.constants, &[0.37], &configuration], &mut matrix);
+            let program = interpreted(program, &self.model.derived.tables);
+            program.run(&[&self.constants, &[0.37], &configuration], &mut matrix);
             matrix
         }))
     }
@@ -313,11 +319,15 @@ fn check(method: &str, lists: [(&str, usize, &[f64]); 3]) -> Result<(), CallErro
     })
 }
 
-/// The numbers of all parameters in their order.
-fn numbers_of(list: &[Parameter], given: &[(&str, &[f64])]) -> Result<Vec<f64>, Vec<Misgiven>> {
+/// The numbers of all parameters in their order, unless something was wrong before or is.
+fn numbers_of(
+    list: &[Parameter],
+    given: &[(&str, &[f64])],
+    mut wrong: Vec<Misgiven>,
+) -> Result<Vec<f64>, Vec<Misgiven>> {
     let is_unknown = |name: &str| list.iter().all(|parameter| parameter.name != name);
     let unknown = given.iter().filter(|(name, _)| is_unknown(name));
-    let mut wrong: Vec<Misgiven> = unknown.map(|(name, _)| Misgiven::Unknown((*name).to_owned())).collect();
+    wrong.extend(unknown.map(|(name, _)| Misgiven::Unknown((*name).to_owned())));
     let mut numbers = Vec::new();
     for Parameter { name, count, .. } in list {
         let mut own = given.iter().filter(|(known, _)| known == name).map(|(_, numbers)| *numbers);

@@ -18,6 +18,7 @@ mod kernel;
 mod model;
 mod names;
 mod system;
+mod tables;
 
 pub use backends::{Backend, Compiled, Interpreter};
 #[cfg(feature = "cranelift")]
@@ -26,7 +27,7 @@ pub use backends::{Cranelift, Effort};
 pub use cache::Cache;
 pub use configuration::{MixedConfiguration, MixedVector};
 pub use contacts::SystemWithContacts;
-pub use error::{CallError, KernelError, Misgiven, Mistake, Mistakes, Place};
+pub use error::{CallError, KernelError, Misgiven, Mistake, Mistakes, Place, TableMistake, TableMistakes};
 pub use gauss_codegen::description::{ContactDescription, Description, Quantity, QuantityKind, Remark};
 pub use gauss_codegen::{Clause, Field, Notation, Scene};
 pub use kernel::{Kernel, Method};
@@ -34,3 +35,4 @@ pub use model::Model;
 #[doc(hidden)]
 pub use names::{kept, kept_axes};
 pub use system::{Inputs, NoSystem, System};
+pub use tables::{Array, Tables};

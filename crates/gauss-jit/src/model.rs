@@ -6,14 +6,15 @@ use std::path::Path;
 use std::sync::{Arc, Once, OnceLock};
 
 use gauss_codegen::description::Description;
-use gauss_codegen::parameters::{Parameter, Parameters};
+use gauss_codegen::parameters::{Parameter, Parameters, Table};
 use gauss_codegen::program::{Argument, Counts, Instruction, Program, Results};
 use gauss_codegen::{Derivation, Notation, Scene};
 use gauss_runtime::contact::Contact;
 
 use crate::backends::{Backend, Compiled, interpreted};
-use crate::error::{CallError, Mistake, Mistakes, Place};
+use crate::error::{CallError, Mistake, Mistakes, Place, TableMistakes};
 use crate::names::contacts;
+use crate::tables::{self, Array, Tables};
 
 /// A scene with its equations of motion, and the programs that compute them.
 ///
@@ -29,8 +30,9 @@ pub struct Model {
 pub(crate) struct Derived {
     pub data: Data,
     pub contacts: &'static [Contact],
+    pub tables: Tables,
     compiled: Vec<OnceLock<Box<dyn Compiled>>>,
-    backend: Box<dyn Backend>,
+    backend: Arc<dyn Backend>,
 }
 
 /// A derivation as plain data.
@@ -58,17 +60,17 @@ impl Data {
 }
 
 impl Derived {
-    fn new(data: Data, backend: Box<dyn Backend>) -> Self {
+    fn new(data: Data, tables: Tables, backend: Arc<dyn Backend>) -> Self {
         let compiled = data.methods.iter().map(|_| OnceLock::new()).collect();
-        Self { contacts: contacts(&data.description), data, compiled, backend }
+        Self { contacts: contacts(&data.description), data, tables, compiled, backend }
     }
 
     pub fn compiled(&self, method: usize) -> &dyn Compiled {
         let program = &self.data.methods[method];
         let make = || {
-            self.backend.compile(program).unwrap_or_else(|| {
+            self.backend.compile(program, &self.tables).unwrap_or_else(|| {
                 say_interpreted();
-                Box::new(interpreted(program))
+                Box::new(interpreted(program, &self.tables))
             })
         };
         &**self.compiled[method].get_or_init(make)
@@ -76,11 +78,11 @@ impl Derived {
 }
 
 /// Machine code, where it is compiled in.
-fn default_backend() -> Box<dyn Backend> {
+fn default_backend() -> Arc<dyn Backend> {
     #[cfg(feature = "cranelift")]
-    return Box::new(crate::backends::Cranelift::default());
+    return Arc::new(crate::backends::Cranelift::default());
     #[cfg(not(feature = "cranelift"))]
-    return Box::new(crate::backends::Interpreter);
+    return Arc::new(crate::backends::Interpreter);
 }
 
 /// Once in the life of a process.
@@ -141,9 +143,9 @@ impl Model {
 
     fn new(derivation: &Derivation) -> Result<Self, Mistake> {
         let functions = derivation.functions();
-        if let Some(name) = functions.programs().find_map(called) {
-            let message =
-                format!("the equations call `{name}`, a function of Rust or a table, which is not there at run time");
+        let tables = &derivation.parameters().tables;
+        if let Some(name) = functions.programs().find_map(|program| called(program, tables)) {
+            let message = format!("the equations call `{name}`, a function of Rust, which is not there at run time");
             return Err(Mistake { place: Place::Clause(functions.name.clone()), message });
         }
         Ok(Self::of(Data {
@@ -162,13 +164,42 @@ impl Model {
 
     /// The model of a derivation.
     pub(crate) fn of(data: Data) -> Self {
-        Self { derived: Arc::new(Derived::new(data, default_backend())) }
+        Self { derived: Arc::new(Derived::new(data, Tables::default(), default_backend())) }
     }
 
     /// The same model whose programs are carried out in another way.
     #[must_use]
     pub fn with_backend(&self, backend: impl Backend + 'static) -> Self {
-        Self { derived: Arc::new(Derived::new(self.derived.data.clone(), Box::new(backend))) }
+        let Derived { data, tables, .. } = &*self.derived;
+        Self { derived: Arc::new(Derived::new(data.clone(), tables.clone(), Arc::new(backend))) }
+    }
+
+    /// The same model with the numbers of its tables: an array for each of [`table_constants`](Self::table_constants),
+    /// by its name, with its axes and its numbers row after row. `points` have the axes (n, 2), the arrays of `axes`
+    /// one, `values` one for each of these. All before are replaced.
+    ///
+    /// # Errors
+    /// Every array that is missing, is of no table, has another shape, or has numbers that make no table.
+    pub fn with_tables(&self, arrays: &[Array<'_>]) -> Result<Self, TableMistakes> {
+        let Derived { data, backend, .. } = &*self.derived;
+        if arrays.is_empty() && self.table_constants().is_empty() {
+            return Ok(self.clone());
+        }
+        let tables = Tables::of(&data.parameters.tables, arrays).map_err(|list| TableMistakes { list })?;
+        Ok(Self { derived: Arc::new(Derived::new(data.clone(), tables, Arc::clone(backend))) })
+    }
+
+    /// The paths of the constants that the scene has the numbers of its tables in, as its clauses name them, in their
+    /// order: `POWER`, `aero::LIFT`. Constants of Rust are not there at run time: a kernel needs their arrays, by
+    /// [`with_tables`](Self::with_tables).
+    pub fn table_constants(&self) -> Vec<&str> {
+        let mut names = Vec::new();
+        for name in self.derived.data.parameters.tables.iter().flatten().flat_map(tables::constants) {
+            if !names.contains(&name.as_str()) {
+                names.push(name.as_str());
+            }
+        }
+        names
     }
 
     /// The name of the struct.
@@ -268,10 +299,12 @@ pub(crate) fn of_file(format: &str, path: &Path, clauses: &[&str]) -> String {
     format!("#[gauss({format} = {:?},{clauses}\n)]\nstruct Robot;\n", path.to_string_lossy())
 }
 
-/// The name of a function of the author's own that the program calls.
-fn called(program: &Program) -> Option<String> {
+/// The name of a function of Rust that the program calls.
+fn called(program: &Program, tables: &[Option<Table>]) -> Option<String> {
     program.code.instructions.iter().find_map(|instruction| match instruction {
-        Instruction::Own(function, _) => program.functions.get(usize::from(function.index)).cloned(),
+        Instruction::Own(function, _) if tables.get(usize::from(function.index)).is_none_or(Option::is_none) => {
+            program.functions.get(usize::from(function.index)).cloned()
+        }
         _ => None,
     })
 }

@@ -73,7 +73,7 @@ fn files_that_are_none() {
 fn functions_of_rust_are_not_there() {
     let source = "#[gauss(coordinates(x), particle(mass = m, position = [x, 0, 0]), potential = lift(x), \
                   function(lift = aero::lift, derivative = aero::slope))] struct Wing { m: f64 }";
-    let message = "Wing: the equations call `lift`, a function of Rust or a table, which is not there at run time";
+    let message = "Wing: the equations call `lift`, a function of Rust, which is not there at run time";
     assert_eq!(refused(source).to_string(), message);
 }
 

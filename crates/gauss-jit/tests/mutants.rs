@@ -18,7 +18,7 @@ mod sources;
 
 use gauss_codegen::Derivation;
 use gauss_codegen::program::{Instruction, Program};
-use gauss_jit::{Backend, Cranelift, Effort, Interpreter, Model, Place};
+use gauss_jit::{Backend, Cranelift, Effort, Interpreter, Model, Place, Tables};
 use mutate::{Tree, mutated};
 use proc_macro2::TokenStream;
 use random::Random;
@@ -54,7 +54,9 @@ fn compare(program: &Program, random: &mut Random, source: &str) {
     let lists: Vec<&[f64]> = lists.iter().map(Vec::as_slice).collect();
     let run = |way: &dyn Backend| {
         let mut outputs = vec![0.0; program.code.outputs.len()];
-        way.compile(program).unwrap_or_else(|| panic!("no code: {source}")).run(&lists, &mut outputs);
+        way.compile(program, &Tables::default())
+            .unwrap_or_else(|| panic!("no code: {source}"))
+            .run(&lists, &mut outputs);
         bits(outputs)
     };
     let expected = run(&Interpreter);

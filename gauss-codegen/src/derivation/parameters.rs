@@ -1,15 +1,17 @@
-//! Laws of mass data and of constants as plain data: what `emit::constructor` writes as Rust.
+//! Laws of mass data and of constants, and tables, as plain data: what `emit::constructor` writes as Rust.
 
 use std::ops::Range;
+
+use proc_macro2::TokenStream;
 
 use crate::algebra::{Expr, Set};
 use crate::emit::{Derived, in_states};
 use crate::kernel;
 use crate::mass_laws::{Datum, Group, InertiaRule, InertiaRules, MassLaw, MassRule};
 use crate::mechanics::{Coordinate, QuantityValues};
-use crate::parameters::{Check, Given, Parameter, Parameters, Rule, Warning, WarningRule};
+use crate::parameters::{Check, Given, Parameter, Parameters, Rule, Table, Warning, WarningRule};
 use crate::program::{ArgumentKind, Results};
-use crate::terms::{Field, LawKind, Role, Shape};
+use crate::terms::{self, Field, FunctionKind, LawKind, Role, Shape, UserFunction};
 use crate::translate::{DragMatrix, FieldPart, Law};
 use crate::words::Unraw;
 
@@ -66,7 +68,17 @@ pub fn parameters<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> R
     let computed = signature.program("checks", &[ArgumentKind::Parameters], &code, results)?;
     let label = provenance.sources.first().map(|s| fields[s.field].ident.unraw().to_string()).unwrap_or_default();
     let list = fields.iter().flat_map(of_field).collect();
-    Ok(Parameters { list, read, checks, warnings, computed, label, in_sum: derived.mass_laws.in_sum })
+    let tables = provenance.item.functions.iter().map(table).collect();
+    Ok(Parameters { list, read, checks, warnings, computed, label, in_sum: derived.mass_laws.in_sum, tables })
+}
+
+/// The table that a function is.
+fn table(function: &UserFunction) -> Option<Table> {
+    let FunctionKind::Table(terms::Table { axes, values, joined }) = &function.kind else { return None };
+    // Tokens are written with spaces between them: `aero :: LIFT`.
+    let path = |tokens: &TokenStream| tokens.to_string().split_whitespace().collect::<String>();
+    let axes = axes.iter().map(|axis| path(&axis.path)).collect();
+    Some(Table { name: function.name.unraw().to_string(), axes, values: path(values), joined: *joined })
 }
 
 /// The parts that a field has, with the axes of each.

@@ -46,6 +46,7 @@ pub struct Axis {
 
 /// Interpolation between the points of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Interpolation {
     /// Straight lines.
     Linear,

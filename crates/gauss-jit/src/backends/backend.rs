@@ -4,13 +4,16 @@ use std::fmt::Debug;
 
 use gauss_codegen::program::Program;
 
+use crate::tables::Tables;
+
 /// A way to carry out programs.
 ///
-/// All ways round alike: products are fused with sums where the processor has an instruction for that, sines and other
-/// functions are the runtime's. So each gives the same bits.
+/// All ways round alike: products are fused with sums where the processor has an instruction for that; sines and other
+/// functions, and tables, are the runtime's. So each gives the same bits.
 pub trait Backend: Debug + Send + Sync {
-    /// The program, ready to be called; `None` where this way is not open: the interpreter is taken then.
-    fn compile(&self, program: &Program) -> Option<Box<dyn Compiled>>;
+    /// The program, ready to be called, with the tables that it calls; `None` where this way is not open: the
+    /// interpreter is taken then, whose tables are NaN where their numbers are not given.
+    fn compile(&self, program: &Program, tables: &Tables) -> Option<Box<dyn Compiled>>;
 }
 
 /// A program that can be called, by any number of threads at once.

@@ -3,6 +3,8 @@
 //! A function reads its arguments where it needs them, computes everything, and then writes the results. Angles that
 //! are arguments come first: their sines and cosines are one call of the runtime.
 
+use std::sync::Arc;
+
 use cranelift_codegen::Context;
 use cranelift_codegen::ir::types::{F64, I64};
 use cranelift_codegen::ir::{
@@ -19,6 +21,7 @@ use gauss_codegen::program::{BinaryFunction, Function, Input, Instruction, Opera
 use super::backend::{Backend, Compiled, MOST_ARGUMENTS};
 use super::functions::{binary, is_fused, unary};
 use super::machine::{self, MachineCode};
+use crate::tables::Tables;
 
 /// Effort with which Cranelift tries to keep values in registers. Its optimiser is left out: it undoes the order of
 /// statements.
@@ -45,29 +48,29 @@ pub struct Cranelift {
 }
 
 impl Backend for Cranelift {
-    fn compile(&self, program: &Program) -> Option<Box<dyn Compiled>> {
+    fn compile(&self, program: &Program, tables: &Tables) -> Option<Box<dyn Compiled>> {
         // Its fields can be written by anyone, and code reads what they name.
         program.verify().ok()?;
-        let code = self.machine_code(program)?;
+        let code = self.machine_code(program, tables)?;
         Some(Box::new(code))
     }
 }
 
 impl Cranelift {
     /// `None` for processors that Cranelift does not know, or where executable memory is refused.
-    fn machine_code(self, program: &Program) -> Option<MachineCode> {
+    fn machine_code(self, program: &Program, tables: &Tables) -> Option<MachineCode> {
         let mut builder = JITBuilder::with_isa(self.target(program.code.instructions.len())?, default_libcall_names());
         declare_symbols(&mut builder);
         let mut module = JITModule::new(builder);
         let mut context = module.make_context();
         let pointer = module.target_config().pointer_type();
         context.func.signature.params = vec![AbiParam::new(pointer), AbiParam::new(pointer)];
-        Writer::write(program, &mut module, &mut context)?;
+        Writer::write(program, tables, &mut module, &mut context)?;
         let signature = context.func.signature.clone();
         let id = module.declare_function("program", Linkage::Export, &signature).ok()?;
         let made = module.define_function(id, &mut context).is_ok() && module.finalize_definitions().is_ok();
         let counts = program.arguments.iter().map(|argument| argument.components.len()).collect();
-        machine::code(module, made.then_some(id), counts, program.code.outputs.len())
+        machine::code(module, made.then_some(id), (counts, program.code.outputs.len()), tables)
     }
 
     /// The processor that this runs on, for a program of so many instructions.
@@ -93,9 +96,11 @@ const UNARY: [Function; 6] =
 const BINARY: [BinaryFunction; 4] =
     [BinaryFunction::Atan2, BinaryFunction::Min, BinaryFunction::Max, BinaryFunction::Powf];
 const SINES: &str = "sines_and_cosines";
+const TABLE: &str = "table";
 
 fn declare_symbols(builder: &mut JITBuilder) {
     builder.symbol(SINES, machine::sines_and_cosines as *const u8);
+    builder.symbol(TABLE, machine::table as *const u8);
     UNARY.iter().for_each(|function| {
         builder.symbol(function.name(), unary(*function) as *const u8);
     });
@@ -107,6 +112,7 @@ fn declare_symbols(builder: &mut JITBuilder) {
 /// A program as far as it has been written.
 struct Writer<'a, 'b> {
     program: &'a Program,
+    tables: &'a Tables,
     builder: FunctionBuilder<'b>,
     module: &'a mut JITModule,
     /// Addresses of the numbers of each argument.
@@ -125,7 +131,7 @@ enum Computed {
 }
 
 impl Writer<'_, '_> {
-    fn write(program: &Program, module: &mut JITModule, context: &mut Context) -> Option<()> {
+    fn write(program: &Program, tables: &Tables, module: &mut JITModule, context: &mut Context) -> Option<()> {
         if program.arguments.len() > MOST_ARGUMENTS {
             return None;
         }
@@ -143,7 +149,8 @@ impl Writer<'_, '_> {
         let count = program.code.instructions.len();
         let unwritten = builder.ins().f64const(f64::NAN);
         let (results, functions) = (vec![Computed::Value(unwritten); count], Vec::new());
-        let mut writer = Writer { program, builder, module, arguments, results, functions, is_fused: is_fused() };
+        let is_fused = is_fused();
+        let mut writer = Writer { program, tables, builder, module, arguments, results, functions, is_fused };
         writer.instructions()?;
         // Everything is computed before anything is written.
         let values: Vec<Value> = program.code.outputs.iter().map(|&output| writer.value(output)).collect();
@@ -279,8 +286,21 @@ impl Writer<'_, '_> {
                 let call = self.builder.ins().call(function, &arguments);
                 self.builder.inst_results(call)[0]
             }
-            // Pairs are written together; models with functions of their author's are refused before.
-            Instruction::SineCosine(_) | Instruction::Own(..) => return None,
+            Instruction::Own(function, arguments) => {
+                // It lives as long as the code, which holds it too.
+                let table = Arc::as_ptr(self.tables.get(function)?) as i64;
+                let [first, second, third] = function.orders;
+                let orders = u64::from_le_bytes([first, second, third, 0, 0, 0, 0, 0]);
+                let pointer = self.module.target_config().pointer_type();
+                let called = self.function(TABLE, &[pointer, I64, F64, F64, F64], true)?;
+                let [x, y, z] = arguments.map(|own| self.value(own));
+                let (table, orders) =
+                    (self.builder.ins().iconst(pointer, table), self.builder.ins().iconst(I64, orders as i64));
+                let call = self.builder.ins().call(called, &[table, orders, x, y, z]);
+                self.builder.inst_results(call)[0]
+            }
+            // Pairs are written together.
+            Instruction::SineCosine(_) => return None,
         })
     }
 

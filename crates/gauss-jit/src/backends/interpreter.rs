@@ -5,26 +5,29 @@ use gauss_runtime::prelude::Real;
 
 use super::backend::{Backend, Compiled};
 use super::functions::{binary, is_fused, unary};
+use crate::tables::Tables;
 
 /// Carries programs out instruction by instruction.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Interpreter;
 
 impl Backend for Interpreter {
-    fn compile(&self, program: &Program) -> Option<Box<dyn Compiled>> {
-        Some(Box::new(interpreted(program)))
+    fn compile(&self, program: &Program, tables: &Tables) -> Option<Box<dyn Compiled>> {
+        Some(Box::new(interpreted(program, tables)))
     }
 }
 
 /// The same, which is never refused.
-pub fn interpreted(program: &Program) -> Interpreted {
-    Interpreted { code: program.code.clone(), numbers: program.numbers.clone(), is_fused: is_fused() }
+pub fn interpreted(program: &Program, tables: &Tables) -> Interpreted {
+    let (code, numbers, tables) = (program.code.clone(), program.numbers.clone(), tables.clone());
+    Interpreted { code, numbers, tables, is_fused: is_fused() }
 }
 
 #[derive(Debug)]
 pub struct Interpreted {
     code: Code,
     numbers: Vec<f64>,
+    tables: Tables,
     is_fused: bool,
 }
 
@@ -71,8 +74,10 @@ impl Interpreted {
             Instruction::SineCosine(a) => return Real::sin_cos(at(a)).into(),
             Instruction::Call(function, a) => unary(function)(at(a)),
             Instruction::Binary(function, a, b) => binary(function)(at(a), at(b)),
-            // Models whose equations call functions of their author's are refused before.
-            Instruction::Own(..) => f64::NAN,
+            // Models whose equations call functions of Rust, or tables without numbers, have no kernels.
+            Instruction::Own(function, arguments) => {
+                self.tables.get(function).map_or(f64::NAN, |table| table.at(function.orders, arguments.map(at)))
+            }
         };
         [value, 0.0]
     }

@@ -8,9 +8,11 @@ use std::slice;
 
 use cranelift_jit::JITModule;
 use cranelift_module::FuncId;
+use gauss_runtime::table::Table;
 
 use super::backend::{Compiled, MOST_ARGUMENTS};
 use super::functions;
+use crate::tables::Tables;
 
 /// A function of the lists of numbers of its arguments, one pointer for each, and of the place for its results.
 type Function = unsafe extern "C" fn(*const *const f64, *mut f64);
@@ -22,6 +24,8 @@ pub struct MachineCode {
     counts: Vec<usize>,
     outputs: usize,
     memory: Memory,
+    /// Tables whose addresses are in the code.
+    _tables: Tables,
 }
 
 /// The memory of code: writable while it is made, executable afterwards and no longer writable.
@@ -41,14 +45,19 @@ impl Drop for Memory {
     }
 }
 
-/// The function of that name in a module that is finalised, if it could be.
-pub fn code(module: JITModule, id: Option<FuncId>, counts: Vec<usize>, outputs: usize) -> Option<MachineCode> {
+/// The function of that name in a module that is finalised, if it could be. Tables that it calls are among these.
+pub fn code(
+    module: JITModule,
+    id: Option<FuncId>,
+    (counts, outputs): (Vec<usize>, usize),
+    tables: &Tables,
+) -> Option<MachineCode> {
     let memory = Memory(Some(module));
     let address = memory.0.as_ref()?.get_finalized_function(id?);
     // SAFETY: the function was declared with two pointers as parameters, nothing as its result, and the calling
     // convention of the host, which is that of `extern "C"`.
     let function = unsafe { mem::transmute::<*const u8, Function>(address) };
-    Some(MachineCode { function, counts, outputs, memory })
+    Some(MachineCode { function, counts, outputs, memory, _tables: tables.clone() })
 }
 
 impl Compiled for MachineCode {
@@ -60,7 +69,8 @@ impl Compiled for MachineCode {
         lists.iter_mut().zip(arguments).for_each(|(pointer, list)| *pointer = list.as_ptr());
         // SAFETY: code reads as many pointers as there are arguments, at most `MOST_ARGUMENTS`, and behind each the
         // components that its argument has (`Program::verify`, which was asked when it was made); it writes as many
-        // numbers as there are outputs. Both were compared above. Its memory lives as long as `self`.
+        // numbers as there are outputs. Both were compared above. Its memory lives as long as `self`, as do the tables
+        // whose addresses are in it.
         unsafe { (self.function)(lists.as_ptr(), outputs.as_mut_ptr()) };
     }
 
@@ -87,4 +97,15 @@ pub unsafe extern "C" fn sines_and_cosines(angles: *const f64, count: usize, res
         (slice::from_raw_parts(angles, count), slice::from_raw_parts_mut(results.cast::<[f64; 2]>(), count))
     };
     functions::sines_and_cosines(angles, results);
+}
+
+/// Calls a table, for machine code: the derivative whose orders are the bytes of a number, the first one lowest.
+///
+/// # Safety
+/// The address is that of a table that lives over the call.
+pub unsafe extern "C" fn table(table: *const Table, orders: u64, x: f64, y: f64, z: f64) -> f64 {
+    let [first, second, third, ..] = orders.to_le_bytes();
+    // SAFETY: only code of this crate calls it, with the address of a table that `MachineCode` holds, which the call
+    // borrows; nobody writes tables.
+    unsafe { &*table }.at([first, second, third], [x, y, z])
 }
