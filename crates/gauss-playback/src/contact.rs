@@ -29,8 +29,8 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
             (touch, [at.x, at.y, at.z, force.x * scale, force.y * scale, force.z * scale])
         };
         let (touches, values): (Vec<Touch>, Vec<[f64; 6]>) = shown.into_iter().map(row).unzip();
-        self.look_at(&format!("contact `{name}`"), &values);
-        self.page.contacts.push(Contact { name: name.to_owned(), touches, values });
+        self.shown.look_at(&format!("contact `{name}`"), &values);
+        self.shown.page.contacts.push(Contact { name: name.to_owned(), touches, values });
     }
 }
 
@@ -76,9 +76,9 @@ mod of_runs {
                 let frame = |s: &Sample<S>| kernel.contact_frame(n, s.t, &s.q).or_else(|| place(n, s));
                 let Some(frames) = self.samples.iter().map(frame).collect::<Option<Vec<_>>>() else { continue };
                 if let Some(plane) = plane(kernel, n, &self.samples, &frames)
-                    && !self.page.planes.contains(&plane)
+                    && !self.shown.page.planes.contains(&plane)
                 {
-                    self.page.planes.push(plane);
+                    self.shown.page.planes.push(plane);
                 }
                 let shown = self.samples.iter().zip(frames).map(|(s, frame)| {
                     let forces = *run.forces(s.t)?;
@@ -87,7 +87,7 @@ mod of_runs {
                 });
                 match shown.collect::<Result<Vec<_>, ContactError>>() {
                     Ok(shown) => self.add_contact(contact.name, scale, shown),
-                    Err(error) => self.mistakes.push(format!("contact `{}`: {error}", contact.name)),
+                    Err(error) => self.shown.mistakes.push(format!("contact `{}`: {error}", contact.name)),
                 }
             }
             self

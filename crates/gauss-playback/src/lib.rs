@@ -49,6 +49,7 @@ mod contact;
 mod error;
 mod page;
 mod playback;
+mod recording;
 mod shape;
 mod touch;
 #[cfg(feature = "urdf")]
@@ -56,5 +57,6 @@ mod urdf;
 
 pub use error::PlaybackError;
 pub use playback::Playback;
+pub use recording::Recording;
 pub use shape::Shape;
 pub use touch::Touch;

@@ -1,28 +1,23 @@
 //! A motion to be shown, gathered call by call.
 
-#[cfg(feature = "urdf")]
-use std::fs;
 use std::path::Path;
 
 use gauss_runtime::integrate::RunRecord;
 use gauss_runtime::prelude::{FrameName, FramedSystem, GaussSystem, Isometry3, Sample, Vector3};
 
 use crate::error::PlaybackError;
-use crate::page::{self, Arrow, Body, Curve, Page, Panel, Rod, Trace};
+use crate::page::{self, Arrow};
+use crate::recording::Recording;
 use crate::shape::Shape;
 
 /// Pictures of a run: at 60 a second it takes ten seconds to play.
 const PICTURES: u32 = 600;
 
-/// Message for a number that cannot be shown.
-const OUT_OF_RANGE: &str = "is not finite, or larger than a page can show (1.7e38)";
-
 /// A motion to be shown. What is added to it is computed at once, for all times; mistakes are gathered and told by
 /// [`html`](Self::html) and [`write`](Self::write).
 pub struct Playback<S: GaussSystem<Scalar = f64>> {
     pub(crate) samples: Vec<Sample<S>>,
-    pub(crate) page: Page,
-    pub(crate) mistakes: Vec<String>,
+    pub(crate) shown: Recording,
 }
 
 impl<S: GaussSystem<Scalar = f64>> Playback<S> {
@@ -49,14 +44,11 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
     #[must_use]
     pub fn of_samples(title: &str, samples: Vec<Sample<S>>) -> Self {
         let times = samples.iter().map(|sample| sample.t).collect();
-        let mut playback = Self { samples, page: Page::new(title, times), mistakes: Vec::new() };
-        if playback.samples.is_empty() {
-            playback.mistakes.push("there are no samples to show".to_owned());
-        }
-        if let Some(sample) = playback.samples.iter().find(|sample| !sample.t.is_finite()) {
-            playback.mistakes.push(format!("a sample is at the time {}", sample.t));
-        }
-        playback
+        Self { samples, shown: Recording::new(title, times) }
+    }
+
+    fn with(self, change: impl FnOnce(Recording) -> Recording) -> Self {
+        Self { samples: self.samples, shown: change(self.shown) }
     }
 
     /// A body: its pose, by the observer, and its shapes.
@@ -68,7 +60,7 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
         shapes: impl IntoIterator<Item = Shape>,
     ) -> Self {
         let poses: Vec<[f64; 7]> = self.samples.iter().map(|sample| page::pose(&pose(sample))).collect();
-        self.add_body(name, poses);
+        self.shown.add_body(name, poses);
         shapes.into_iter().fold(self, |playback, shape| playback.shape(name, shape))
     }
 
@@ -85,110 +77,8 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
                 page::pose(&gauss_runtime::nalgebra::convert(kernel.pose_of(frame, sample.t, &sample.q)))
             };
             let poses = self.samples.iter().map(pose).collect();
-            self.add_body(frame.name(), poses);
+            self.shown.add_body(frame.name(), poses);
         }
-        self
-    }
-
-    fn add_body(&mut self, name: &str, poses: Vec<[f64; 7]>) {
-        if self.page.bodies.iter().any(|body| body.name == name) {
-            self.mistakes.push(format!("two bodies are called `{name}`"));
-        }
-        self.look_at(&format!("pose of `{name}`"), &poses);
-        self.page.bodies.push(Body { name: name.to_owned(), poses, shapes: Vec::new() });
-    }
-
-    /// A shape more of a body.
-    #[must_use]
-    pub fn shape(mut self, body: &str, shape: Shape) -> Self {
-        if !shape.can_be_shown() {
-            self.mistakes.push(format!("a shape of `{body}` {OUT_OF_RANGE}"));
-        }
-        if let Some(body) = self.index_of(body) {
-            self.page.bodies[body].shapes.push(shape);
-        }
-        self
-    }
-
-    /// Gives the bodies that are there, such as those of [`frames`](Self::frames), the boxes, cylinders and balls that
-    /// the links of their names have in a URDF file: those that are shown, and where these are meshes those that touch.
-    #[cfg(feature = "urdf")]
-    #[must_use]
-    pub fn shapes_of_urdf(mut self, file: impl AsRef<Path>) -> Self {
-        let file = file.as_ref();
-        let text = fs::read_to_string(file).map_err(|error| error.to_string());
-        match text.and_then(|text| crate::urdf::shapes(&text)) {
-            Ok(shapes) => {
-                let mut any = false;
-                for body in &mut self.page.bodies {
-                    let own = shapes.iter().filter(|(link, _)| crate::urdf::is_called(&body.name, link));
-                    let before = body.shapes.len();
-                    body.shapes.extend(own.map(|(_, shape)| shape.clone()));
-                    any |= body.shapes.len() > before;
-                }
-                if !any {
-                    let text = "no body has the name of a link with a box, a cylinder or a ball";
-                    self.mistakes.push(format!("{}: {text}", file.display()));
-                }
-            }
-            Err(text) => self.mistakes.push(format!("{}: {text}", file.display())),
-        }
-        self
-    }
-
-    /// A rod from the origin of one body to that of another, as a skeleton has them.
-    #[must_use]
-    pub fn rod(mut self, from: &str, to: &str, radius: f64) -> Self {
-        if !(radius >= 0.0 && page::can_be_shown(&[radius])) {
-            self.mistakes.push(format!("the rod from `{from}` to `{to}` has the radius {radius}"));
-        }
-        if let (Some(from), Some(to)) = (self.index_of(from), self.index_of(to)) {
-            self.page.rods.push(Rod { from, to, radius });
-        }
-        self
-    }
-
-    /// The path of a point of a body, body axes from O.
-    #[must_use]
-    pub fn trace(mut self, body: &str, point: [f64; 3]) -> Self {
-        if !page::can_be_shown(&point) {
-            self.mistakes.push(format!("the point of a trace of `{body}` {OUT_OF_RANGE}"));
-        }
-        if let Some(body) = self.index_of(body) {
-            self.page.traces.push(Trace { body, point });
-        }
-        self
-    }
-
-    /// Which way is up on the screen, observer's axes; without this k₃. In a scene whose k₃ points down, as those of
-    /// ships do, `[0.0, 0.0, -1.0]`; for motion in the plane of k₁ and k₂ with weight along −k₂, `[0.0, 1.0, 0.0]`.
-    #[must_use]
-    pub fn up(mut self, direction: [f64; 3]) -> Self {
-        if !page::can_be_shown(&direction) || direction == [0.0; 3] {
-            self.mistakes.push("the direction that is up is zero or cannot be shown".to_owned());
-        }
-        self.page.up = direction;
-        self
-    }
-
-    /// Looks at the motion from above at first.
-    #[must_use]
-    pub fn from_above(mut self) -> Self {
-        self.page.view = "top";
-        self
-    }
-
-    /// Looks at the motion from the side at first, along k₂ where k₃ is up: for motion in the plane of k₁ and k₃.
-    #[must_use]
-    pub fn from_the_side(mut self) -> Self {
-        self.page.view = "side";
-        self
-    }
-
-    /// Lets the camera go with a body, and come near it; without this it sees everything from where it is.
-    #[must_use]
-    pub fn follow(mut self, body: &str) -> Self {
-        self.page.follow = self.index_of(body);
         self
     }
 
@@ -209,15 +99,8 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
                 [at.x, at.y, at.z, vector.x * scale, vector.y * scale, vector.z * scale]
             })
             .collect();
-        self.look_at(&format!("arrow `{name}`"), &both);
-        self.page.arrows.push(Arrow { name: name.to_owned(), values: both });
-        self
-    }
-
-    /// Says that the scene is in units of the SI: the page then shows those of time, length and energy.
-    #[must_use]
-    pub fn si(mut self) -> Self {
-        self.page.si = true;
+        self.shown.look_at(&format!("arrow `{name}`"), &both);
+        self.shown.page.arrows.push(Arrow { name: name.to_owned(), values: both });
         self
     }
 
@@ -229,14 +112,7 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
 
     fn curve_in(mut self, (panel, unit): (&str, &'static str), name: &str, value: impl Fn(&Sample<S>) -> f64) -> Self {
         let values: Vec<f64> = self.samples.iter().map(value).collect();
-        if let Some(n) = values.iter().position(|value| !value.is_finite()) {
-            self.mistakes.push(format!("the curve `{name}` is not finite at t = {}", self.samples[n].t));
-        }
-        let curve = Curve { name: name.to_owned(), values };
-        match self.page.panels.iter_mut().find(|other| other.title == panel) {
-            Some(panel) => panel.curves.push(curve),
-            None => self.page.panels.push(Panel { title: panel.to_owned(), unit, curves: vec![curve] }),
-        }
+        self.shown.add_curve((panel, unit), name, values);
         self
     }
 
@@ -249,16 +125,69 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
             .curve_in(panel, "sum", |s| kernel.energy(s.t, &s.q, &s.z))
     }
 
+    /// A shape more of a body.
+    #[must_use]
+    pub fn shape(self, body: &str, shape: Shape) -> Self {
+        self.with(|shown| shown.shape(body, shape))
+    }
+
+    /// Gives the bodies that are there, such as those of [`frames`](Self::frames), the boxes, cylinders and balls that
+    /// the links of their names have in a URDF file: those that are shown, and where these are meshes those that touch.
+    #[cfg(feature = "urdf")]
+    #[must_use]
+    pub fn shapes_of_urdf(self, file: impl AsRef<Path>) -> Self {
+        self.with(|shown| shown.shapes_of_urdf(file))
+    }
+
+    /// A rod from the origin of one body to that of another, as a skeleton has them.
+    #[must_use]
+    pub fn rod(self, from: &str, to: &str, radius: f64) -> Self {
+        self.with(|shown| shown.rod(from, to, radius))
+    }
+
+    /// The path of a point of a body, body axes from O.
+    #[must_use]
+    pub fn trace(self, body: &str, point: [f64; 3]) -> Self {
+        self.with(|shown| shown.trace(body, point))
+    }
+
+    /// Which way is up on the screen, observer's axes; without this k₃. In a scene whose k₃ points down, as those of
+    /// ships do, `[0.0, 0.0, -1.0]`; for motion in the plane of k₁ and k₂ with weight along −k₂, `[0.0, 1.0, 0.0]`.
+    #[must_use]
+    pub fn up(self, direction: [f64; 3]) -> Self {
+        self.with(|shown| shown.up(direction))
+    }
+
+    /// Looks at the motion from above at first.
+    #[must_use]
+    pub fn from_above(self) -> Self {
+        self.with(|shown| shown.from_above())
+    }
+
+    /// Looks at the motion from the side at first, along k₂ where k₃ is up: for motion in the plane of k₁ and k₃.
+    #[must_use]
+    pub fn from_the_side(self) -> Self {
+        self.with(|shown| shown.from_the_side())
+    }
+
+    /// Lets the camera go with a body, and come near it; without this it sees everything from where it is.
+    #[must_use]
+    pub fn follow(self, body: &str) -> Self {
+        self.with(|shown| shown.follow(body))
+    }
+
+    /// Says that the scene is in units of the SI: the page then shows those of time, length and energy.
+    #[must_use]
+    pub fn si(self) -> Self {
+        self.with(|shown| shown.si())
+    }
+
     /// The page.
     ///
     /// # Errors
     /// [`PlaybackError::Mistakes`]: names that no body has or two have, numbers that are not finite.
     pub fn html(&self) -> Result<String, PlaybackError> {
-        if self.mistakes.is_empty() {
-            Ok(self.page.html())
-        } else {
-            Err(PlaybackError::Mistakes(self.mistakes.clone()))
-        }
+        self.shown.html()
     }
 
     /// Writes the page to a file, and the folders above it where they are missing. A file that is there stays as it is
@@ -267,22 +196,6 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
     /// # Errors
     /// As [`html`](Self::html), and [`PlaybackError::Io`].
     pub fn write(&self, file: impl AsRef<Path>) -> Result<(), PlaybackError> {
-        Ok(gauss_files::write(file, self.html()?)?)
-    }
-
-    /// Notes the first time at which what is shown has a number that the page cannot show.
-    pub(crate) fn look_at<const N: usize>(&mut self, what: &str, rows: &[[f64; N]]) {
-        if let Some(n) = rows.iter().position(|row| !page::can_be_shown(row)) {
-            self.mistakes.push(format!("the {what} {OUT_OF_RANGE} at t = {}", self.samples[n].t));
-        }
-    }
-
-    fn index_of(&mut self, name: &str) -> Option<usize> {
-        let found = self.page.bodies.iter().position(|body| body.name == name);
-        if found.is_none() {
-            let known: Vec<&str> = self.page.bodies.iter().map(|body| body.name.as_str()).collect();
-            self.mistakes.push(format!("no body is called `{name}`; there are {}", known.join(", ")));
-        }
-        found
+        self.shown.write(file)
     }
 }
