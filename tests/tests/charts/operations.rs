@@ -227,6 +227,6 @@ fn readme_shows_what_charts_cost() {
         }
         writeln!(out, " {consequence} |").expect("a string");
     }
-    out += "| own: `speeds`, `kinematics` | yours | | | | what they solve costs no multiplier |\n";
+    out += "| own: `speeds`, `kinematics` | yours | | | | speeds that solve a constraint need no multiplier |\n";
     keep("README.md", "charts", &out);
 }
