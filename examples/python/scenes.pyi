@@ -1,6 +1,7 @@
 """Rigid-body dynamics, generated. Stubs written by `stubs()` of the module."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from os import PathLike
 from typing import Any, Literal, NamedTuple, overload
 
 import numpy as np
@@ -69,6 +70,20 @@ class Run:
     @property
     def rejected(self) -> int: ...
     def plot(self, *names: str | Sequence[str]) -> Any: ...
+    def page(
+        self,
+        path: str | PathLike[str] | None = None,
+        kernel: Kernel | None = None,
+        *,
+        title: str | None = None,
+        rods: Iterable[tuple[str, str] | tuple[str, str, float]] | None = None,
+        traces: Iterable[str | tuple[str, Sequence[float]]] | None = None,
+        urdf: str | PathLike[str] | None = None,
+        up: Sequence[float] | None = None,
+        follow: str | None = None,
+        si: bool = True,
+    ) -> str | None:
+        """The run as a page that any browser plays: curves, and the frames of a kernel; its text without a path."""
     @overload
     def __getitem__(self, key: str) -> Array: ...
     @overload
@@ -135,6 +150,8 @@ def stubs() -> str:
 
 class Kernel:
     """A kernel: parameters checked, constants computed once. It never changes, so that threads may share it."""
+    @property
+    def parameter_names(self) -> list[str]: ...
     @property
     def parameters(self) -> dict[str, Any]: ...
     @property
@@ -255,7 +272,7 @@ class Pendulum(Kernel):
       motor: input, in N m
     """
     def __init__(self, *, mass: float, length: float, g: float) -> None: ...
-    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The rates of the speeds.
 
         q (..., 1), z (..., 1), input (..., 1) -> (..., 1)
@@ -263,7 +280,7 @@ class Pendulum(Kernel):
         Inputs: motor (1,), input, in N m.
         """
         ...
-    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
 
         q (..., 1), z (..., 1), acceleration (..., 1), input (..., 1) -> (..., 1)
@@ -271,7 +288,7 @@ class Pendulum(Kernel):
         Inputs: motor (1,), input, in N m.
         """
         ...
-    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Inverse dynamics at acceleration zero.
 
         q (..., 1), z (..., 1), input (..., 1) -> (..., 1)
@@ -279,19 +296,19 @@ class Pendulum(Kernel):
         Inputs: motor (1,), input, in N m.
         """
         ...
-    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Second derivatives of the kinetic energy by z.
 
         q (..., 1) -> (..., 1, 1)
         """
         ...
-    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The velocity of the configuration, seen from the body.
 
         q (..., 1), z (..., 1) -> (..., 1)
         """
         ...
-    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Rates of the numbers of q, then those of z, for any solver.
 
         q (..., 1), z (..., 1), input (..., 1) -> (..., 2)
@@ -299,19 +316,19 @@ class Pendulum(Kernel):
         Inputs: motor (1,), input, in N m.
         """
         ...
-    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Derivatives of the kinetic energy by z.
 
         q (..., 1), z (..., 1) -> (..., 1)
         """
         ...
-    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The speeds with these momenta.
 
         q (..., 1), p (..., 1) -> (..., 1)
         """
         ...
-    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The rates of the momenta.
 
         q (..., 1), p (..., 1), input (..., 1) -> (..., 1)
@@ -319,43 +336,43 @@ class Pendulum(Kernel):
         Inputs: motor (1,), input, in N m.
         """
         ...
-    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The kinetic energy, that of a fluid included.
 
         q (..., 1), z (..., 1) -> (...)
         """
         ...
-    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The potential energy.
 
         q (..., 1) -> (...)
         """
         ...
-    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Kinetic and potential energy.
 
         q (..., 1), z (..., 1) -> (...)
         """
         ...
-    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The distance from a singularity of the coordinates: 0 there, 1 at best.
 
         q (..., 1) -> (...)
         """
         ...
-    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The configuration moved by an increment that is seen from the body.
 
         q (..., 1), increment (..., 1) -> (..., 1)
         """
         ...
-    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The shortest increment from q to the other.
 
         q (..., 1), other (..., 1) -> (..., 1)
         """
         ...
-    def linearize(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None) -> Linearize:
+    def linearize(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None, **parameters: ArrayLike) -> Linearize:
         """Velocity and acceleration with their derivatives by (increment, z), time and input.
 
         q (..., 1), z (..., 1), input (..., 1) -> rate (..., 2), by_state (..., 2, 2), by_time (..., 2), by_input (..., 2, 1)
@@ -363,7 +380,7 @@ class Pendulum(Kernel):
         Inputs: motor (1,), input, in N m.
         """
         ...
-    def linearize_inverse(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None) -> LinearizeInverse:
+    def linearize_inverse(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None, **parameters: ArrayLike) -> LinearizeInverse:
         """Inverse dynamics with its derivatives.
 
         q (..., 1), z (..., 1), acceleration (..., 1), input (..., 1) -> force (..., 1), by_configuration (..., 1, 1), by_speeds (..., 1, 1), by_acceleration (..., 1, 1), by_time (..., 1), by_input (..., 1, 1)
@@ -371,7 +388,7 @@ class Pendulum(Kernel):
         Inputs: motor (1,), input, in N m.
         """
         ...
-    def hessian(self, q: ArrayLike, z: ArrayLike, weights: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None) -> Hessian:
+    def hessian(self, q: ArrayLike, z: ArrayLike, weights: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None, **parameters: ArrayLike) -> Hessian:
         """Second derivatives of the weighted sum of velocity and acceleration.
 
         q (..., 1), z (..., 1), weights (..., 2), input (..., 1) -> by_state (..., 2, 2), by_input_and_state (..., 1, 2), by_input (..., 1, 1)
@@ -379,10 +396,18 @@ class Pendulum(Kernel):
         Inputs: motor (1,), input, in N m.
         """
         ...
-    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The increment seen from the body that changes the numbers of q by so much, to first order.
 
         q (..., 1), change (..., 1) -> (..., 1)
+        """
+        ...
+    def by_parameters(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
+        """Derivatives of velocity and acceleration by `parameter_names`.
+
+        q (..., 1), z (..., 1), input (..., 1) -> (..., 2, 3)
+
+        Inputs: motor (1,), input, in N m.
         """
         ...
 
@@ -404,106 +429,112 @@ class Torpedo(Kernel):
       omega (3 numbers): angular velocity, body axes
     """
     def __init__(self, *, mass: float, center: ArrayLike, inertia: ArrayLike, added: ArrayLike, lift: float) -> None: ...
-    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The rates of the speeds.
 
         q (..., 7), z (..., 6) -> (..., 6)
         """
         ...
-    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
 
         q (..., 7), z (..., 6), acceleration (..., 6) -> (..., 6)
         """
         ...
-    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Inverse dynamics at acceleration zero.
 
         q (..., 7), z (..., 6) -> (..., 6)
         """
         ...
-    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Second derivatives of the kinetic energy by z.
 
         q (..., 7) -> (..., 6, 6)
         """
         ...
-    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The velocity of the configuration, seen from the body.
 
         q (..., 7), z (..., 6) -> (..., 6)
         """
         ...
-    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Rates of the numbers of q, then those of z, for any solver.
 
         q (..., 7), z (..., 6) -> (..., 13)
         """
         ...
-    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Derivatives of the kinetic energy by z.
 
         q (..., 7), z (..., 6) -> (..., 6)
         """
         ...
-    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The speeds with these momenta.
 
         q (..., 7), p (..., 6) -> (..., 6)
         """
         ...
-    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The rates of the momenta.
 
         q (..., 7), p (..., 6) -> (..., 6)
         """
         ...
-    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The kinetic energy, that of a fluid included.
 
         q (..., 7), z (..., 6) -> (...)
         """
         ...
-    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The potential energy.
 
         q (..., 7) -> (...)
         """
         ...
-    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Kinetic and potential energy.
 
         q (..., 7), z (..., 6) -> (...)
         """
         ...
-    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The distance from a singularity of the coordinates: 0 there, 1 at best.
 
         q (..., 7) -> (...)
         """
         ...
-    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The configuration moved by an increment that is seen from the body.
 
         q (..., 7), increment (..., 6) -> (..., 7)
         """
         ...
-    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The shortest increment from q to the other.
 
         q (..., 7), other (..., 7) -> (..., 6)
         """
         ...
-    def linearize(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None) -> Linearize:
+    def linearize(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None, **parameters: ArrayLike) -> Linearize:
         """Velocity and acceleration with their derivatives by (increment, z), time and input.
 
         q (..., 7), z (..., 6) -> rate (..., 12), by_state (..., 12, 12), by_time (..., 12), by_input (..., 12, 0)
         """
         ...
-    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The increment seen from the body that changes the numbers of q by so much, to first order.
 
         q (..., 7), change (..., 7) -> (..., 6)
+        """
+        ...
+    def by_parameters(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
+        """Derivatives of velocity and acceleration by `parameter_names`.
+
+        q (..., 7), z (..., 6) -> (..., 12, 14)
         """
         ...
 
@@ -530,7 +561,7 @@ class Arm(Kernel):
       arm.urdf:31:24: not read, as it has no part in the motion, how many times: velocity (1)
     """
     def __init__(self, *, g: float) -> None: ...
-    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The rates of the speeds.
 
         q (..., 2), z (..., 2), input (..., 2) -> (..., 2)
@@ -538,7 +569,7 @@ class Arm(Kernel):
         Inputs: shoulder (1,), input, in N m; elbow (1,), input, in N m.
         """
         ...
-    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
 
         q (..., 2), z (..., 2), acceleration (..., 2), input (..., 2) -> (..., 2)
@@ -546,7 +577,7 @@ class Arm(Kernel):
         Inputs: shoulder (1,), input, in N m; elbow (1,), input, in N m.
         """
         ...
-    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Inverse dynamics at acceleration zero.
 
         q (..., 2), z (..., 2), input (..., 2) -> (..., 2)
@@ -554,19 +585,19 @@ class Arm(Kernel):
         Inputs: shoulder (1,), input, in N m; elbow (1,), input, in N m.
         """
         ...
-    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Second derivatives of the kinetic energy by z.
 
         q (..., 2) -> (..., 2, 2)
         """
         ...
-    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The velocity of the configuration, seen from the body.
 
         q (..., 2), z (..., 2) -> (..., 2)
         """
         ...
-    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Rates of the numbers of q, then those of z, for any solver.
 
         q (..., 2), z (..., 2), input (..., 2) -> (..., 4)
@@ -574,19 +605,19 @@ class Arm(Kernel):
         Inputs: shoulder (1,), input, in N m; elbow (1,), input, in N m.
         """
         ...
-    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Derivatives of the kinetic energy by z.
 
         q (..., 2), z (..., 2) -> (..., 2)
         """
         ...
-    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The speeds with these momenta.
 
         q (..., 2), p (..., 2) -> (..., 2)
         """
         ...
-    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The rates of the momenta.
 
         q (..., 2), p (..., 2), input (..., 2) -> (..., 2)
@@ -594,103 +625,103 @@ class Arm(Kernel):
         Inputs: shoulder (1,), input, in N m; elbow (1,), input, in N m.
         """
         ...
-    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The kinetic energy, that of a fluid included.
 
         q (..., 2), z (..., 2) -> (...)
         """
         ...
-    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The potential energy.
 
         q (..., 2) -> (...)
         """
         ...
-    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Kinetic and potential energy.
 
         q (..., 2), z (..., 2) -> (...)
         """
         ...
-    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The distance from a singularity of the coordinates: 0 there, 1 at best.
 
         q (..., 2) -> (...)
         """
         ...
-    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The configuration moved by an increment that is seen from the body.
 
         q (..., 2), increment (..., 2) -> (..., 2)
         """
         ...
-    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The shortest increment from q to the other.
 
         q (..., 2), other (..., 2) -> (..., 2)
         """
         ...
-    def pose(self, frame: Literal["tool"], q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def pose(self, frame: Literal["tool"], q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Rotation and origin of a frame as a matrix of four rows, frame to observer.
 
         q (..., 2) -> (..., 4, 4)
         """
         ...
-    def twist(self, frame: Literal["tool"], q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def twist(self, frame: Literal["tool"], q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Velocity of a frame's origin, then angular velocity, in axes of the frame.
 
         q (..., 2), z (..., 2) -> (..., 6)
         """
         ...
-    def jacobian(self, frame: Literal["tool"], q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def jacobian(self, frame: Literal["tool"], q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Derivatives of a frame's twist by z, in axes of the frame.
 
         q (..., 2) -> (..., 6, 2)
         """
         ...
-    def bias(self, frame: Literal["tool"], q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def bias(self, frame: Literal["tool"], q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Acceleration of a frame's origin, then angular, at acceleration zero; its axes.
 
         q (..., 2), z (..., 2) -> (..., 6)
         """
         ...
-    def jacobian_rate(self, frame: Literal["tool"], q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def jacobian_rate(self, frame: Literal["tool"], q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The rate of a frame's Jacobian.
 
         q (..., 2), z (..., 2) -> (..., 6, 2)
         """
         ...
-    def gravity_torques(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def gravity_torques(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The generalised forces that balance weight and buoyancy.
 
         q (..., 2) -> (..., 2)
         """
         ...
-    def center_of_mass(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def center_of_mass(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The centre of mass, in observer's axes.
 
         q (..., 2) -> (..., 3)
         """
         ...
-    def centroidal_momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def centroidal_momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Momentum, then angular momentum about the centre of mass.
 
         q (..., 2), z (..., 2) -> (..., 6)
         """
         ...
-    def centroidal_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def centroidal_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Derivatives of the centroidal momentum by z.
 
         q (..., 2) -> (..., 6, 2)
         """
         ...
-    def center_jacobian(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def center_jacobian(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Derivatives of the centre's velocity.
 
         q (..., 2) -> (..., 3, 2)
         """
         ...
-    def reaction(self, joint: Literal["shoulder", "elbow"], q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def reaction(self, joint: Literal["shoulder", "elbow"], q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Force, then torque about its origin, with which a joint holds what it carries, in axes of that.
 
         q (..., 2), z (..., 2), input (..., 2) -> (..., 6)
@@ -698,7 +729,7 @@ class Arm(Kernel):
         Inputs: shoulder (1,), input, in N m; elbow (1,), input, in N m.
         """
         ...
-    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The increment seen from the body that changes the numbers of q by so much, to first order.
 
         q (..., 2), change (..., 2) -> (..., 2)
@@ -724,103 +755,103 @@ class Wire(Kernel):
       turn_omega (3 numbers): angular velocity of `turn`, in its own axes
     """
     def __init__(self, *, block: Mapping[str, Any], radius: float, g: ArrayLike) -> None: ...
-    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The rates of the speeds.
 
         q (..., 6), z (..., 5) -> (..., 5)
         """
         ...
-    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
 
         q (..., 6), z (..., 5), acceleration (..., 5) -> (..., 5)
         """
         ...
-    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Inverse dynamics at acceleration zero.
 
         q (..., 6), z (..., 5) -> (..., 5)
         """
         ...
-    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Second derivatives of the kinetic energy by z.
 
         q (..., 6) -> (..., 5, 5)
         """
         ...
-    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The velocity of the configuration, seen from the body.
 
         q (..., 6), z (..., 5) -> (..., 5)
         """
         ...
-    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Rates of the numbers of q, then those of z, for any solver.
 
         q (..., 6), z (..., 5) -> (..., 11)
         """
         ...
-    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Derivatives of the kinetic energy by z.
 
         q (..., 6), z (..., 5) -> (..., 5)
         """
         ...
-    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The speeds with these momenta.
 
         q (..., 6), p (..., 5) -> (..., 5)
         """
         ...
-    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The rates of the momenta.
 
         q (..., 6), p (..., 5) -> (..., 5)
         """
         ...
-    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The kinetic energy, that of a fluid included.
 
         q (..., 6), z (..., 5) -> (...)
         """
         ...
-    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The potential energy.
 
         q (..., 6) -> (...)
         """
         ...
-    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Kinetic and potential energy.
 
         q (..., 6), z (..., 5) -> (...)
         """
         ...
-    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The distance from a singularity of the coordinates: 0 there, 1 at best.
 
         q (..., 6) -> (...)
         """
         ...
-    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The configuration moved by an increment that is seen from the body.
 
         q (..., 6), increment (..., 5) -> (..., 6)
         """
         ...
-    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The shortest increment from q to the other.
 
         q (..., 6), other (..., 6) -> (..., 5)
         """
         ...
-    def multipliers(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def multipliers(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Lagrange multipliers.
 
         q (..., 6), z (..., 5) -> (..., 1)
         """
         ...
-    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The increment seen from the body that changes the numbers of q by so much, to first order.
 
         q (..., 6), change (..., 6) -> (..., 5)
@@ -854,97 +885,97 @@ class Lander(Kernel):
       omega (3 numbers): angular velocity, body axes
     """
     def __init__(self, *, mass: float, inertia: ArrayLike, drag_area: float, air: float, riser: float, density: float, wind_x: float, wind_y: float, layer: float, g: float) -> None: ...
-    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The rates of the speeds.
 
         q (..., 7), z (..., 6) -> (..., 6)
         """
         ...
-    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
 
         q (..., 7), z (..., 6), acceleration (..., 6) -> (..., 6)
         """
         ...
-    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Inverse dynamics at acceleration zero.
 
         q (..., 7), z (..., 6) -> (..., 6)
         """
         ...
-    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Second derivatives of the kinetic energy by z.
 
         q (..., 7) -> (..., 6, 6)
         """
         ...
-    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The velocity of the configuration, seen from the body.
 
         q (..., 7), z (..., 6) -> (..., 6)
         """
         ...
-    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Rates of the numbers of q, then those of z, for any solver.
 
         q (..., 7), z (..., 6) -> (..., 13)
         """
         ...
-    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Derivatives of the kinetic energy by z.
 
         q (..., 7), z (..., 6) -> (..., 6)
         """
         ...
-    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The speeds with these momenta.
 
         q (..., 7), p (..., 6) -> (..., 6)
         """
         ...
-    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The rates of the momenta.
 
         q (..., 7), p (..., 6) -> (..., 6)
         """
         ...
-    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The kinetic energy, that of a fluid included.
 
         q (..., 7), z (..., 6) -> (...)
         """
         ...
-    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The potential energy.
 
         q (..., 7) -> (...)
         """
         ...
-    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Kinetic and potential energy.
 
         q (..., 7), z (..., 6) -> (...)
         """
         ...
-    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The distance from a singularity of the coordinates: 0 there, 1 at best.
 
         q (..., 7) -> (...)
         """
         ...
-    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The configuration moved by an increment that is seen from the body.
 
         q (..., 7), increment (..., 6) -> (..., 7)
         """
         ...
-    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The shortest increment from q to the other.
 
         q (..., 7), other (..., 7) -> (..., 6)
         """
         ...
-    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The increment seen from the body that changes the numbers of q by so much, to first order.
 
         q (..., 7), change (..., 7) -> (..., 6)
@@ -976,7 +1007,7 @@ class Puck(Kernel):
     """
     def __init__(self, *, mass: float, friction: float, restitution: float, g: float) -> None: ...
     def without_contacts(self) -> Puck: ...
-    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The rates of the speeds.
 
         q (..., 2), z (..., 2), input (..., 1) -> (..., 2)
@@ -984,7 +1015,7 @@ class Puck(Kernel):
         Inputs: push (1,), input, in N.
         """
         ...
-    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
 
         q (..., 2), z (..., 2), acceleration (..., 2), input (..., 1) -> (..., 2)
@@ -992,7 +1023,7 @@ class Puck(Kernel):
         Inputs: push (1,), input, in N.
         """
         ...
-    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Inverse dynamics at acceleration zero.
 
         q (..., 2), z (..., 2), input (..., 1) -> (..., 2)
@@ -1000,19 +1031,19 @@ class Puck(Kernel):
         Inputs: push (1,), input, in N.
         """
         ...
-    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Second derivatives of the kinetic energy by z.
 
         q (..., 2) -> (..., 2, 2)
         """
         ...
-    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The velocity of the configuration, seen from the body.
 
         q (..., 2), z (..., 2) -> (..., 2)
         """
         ...
-    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Rates of the numbers of q, then those of z, for any solver.
 
         q (..., 2), z (..., 2), input (..., 1) -> (..., 4)
@@ -1020,19 +1051,19 @@ class Puck(Kernel):
         Inputs: push (1,), input, in N.
         """
         ...
-    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Derivatives of the kinetic energy by z.
 
         q (..., 2), z (..., 2) -> (..., 2)
         """
         ...
-    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The speeds with these momenta.
 
         q (..., 2), p (..., 2) -> (..., 2)
         """
         ...
-    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The rates of the momenta.
 
         q (..., 2), p (..., 2), input (..., 1) -> (..., 2)
@@ -1040,43 +1071,43 @@ class Puck(Kernel):
         Inputs: push (1,), input, in N.
         """
         ...
-    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The kinetic energy, that of a fluid included.
 
         q (..., 2), z (..., 2) -> (...)
         """
         ...
-    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The potential energy.
 
         q (..., 2) -> (...)
         """
         ...
-    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Kinetic and potential energy.
 
         q (..., 2), z (..., 2) -> (...)
         """
         ...
-    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The distance from a singularity of the coordinates: 0 there, 1 at best.
 
         q (..., 2) -> (...)
         """
         ...
-    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The configuration moved by an increment that is seen from the body.
 
         q (..., 2), increment (..., 2) -> (..., 2)
         """
         ...
-    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The shortest increment from q to the other.
 
         q (..., 2), other (..., 2) -> (..., 2)
         """
         ...
-    def linearize(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None) -> Linearize:
+    def linearize(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None, **parameters: ArrayLike) -> Linearize:
         """Velocity and acceleration with their derivatives by (increment, z), time and input.
 
         q (..., 2), z (..., 2), input (..., 1) -> rate (..., 4), by_state (..., 4, 4), by_time (..., 4), by_input (..., 4, 1)
@@ -1084,7 +1115,7 @@ class Puck(Kernel):
         Inputs: push (1,), input, in N.
         """
         ...
-    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The increment seen from the body that changes the numbers of q by so much, to first order.
 
         q (..., 2), change (..., 2) -> (..., 2)
@@ -1117,7 +1148,7 @@ class Gate(Kernel):
     """
     def __init__(self, *, mass: float, width: float, most: float, restitution: float, rub: float) -> None: ...
     def without_contacts(self) -> Gate: ...
-    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The rates of the speeds.
 
         q (..., 1), z (..., 1), input (..., 1) -> (..., 1)
@@ -1125,7 +1156,7 @@ class Gate(Kernel):
         Inputs: motor (1,), input, in N m.
         """
         ...
-    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
 
         q (..., 1), z (..., 1), acceleration (..., 1), input (..., 1) -> (..., 1)
@@ -1133,7 +1164,7 @@ class Gate(Kernel):
         Inputs: motor (1,), input, in N m.
         """
         ...
-    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Inverse dynamics at acceleration zero.
 
         q (..., 1), z (..., 1), input (..., 1) -> (..., 1)
@@ -1141,19 +1172,19 @@ class Gate(Kernel):
         Inputs: motor (1,), input, in N m.
         """
         ...
-    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Second derivatives of the kinetic energy by z.
 
         q (..., 1) -> (..., 1, 1)
         """
         ...
-    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The velocity of the configuration, seen from the body.
 
         q (..., 1), z (..., 1) -> (..., 1)
         """
         ...
-    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Rates of the numbers of q, then those of z, for any solver.
 
         q (..., 1), z (..., 1), input (..., 1) -> (..., 2)
@@ -1161,19 +1192,19 @@ class Gate(Kernel):
         Inputs: motor (1,), input, in N m.
         """
         ...
-    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Derivatives of the kinetic energy by z.
 
         q (..., 1), z (..., 1) -> (..., 1)
         """
         ...
-    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The speeds with these momenta.
 
         q (..., 1), p (..., 1) -> (..., 1)
         """
         ...
-    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The rates of the momenta.
 
         q (..., 1), p (..., 1), input (..., 1) -> (..., 1)
@@ -1181,43 +1212,43 @@ class Gate(Kernel):
         Inputs: motor (1,), input, in N m.
         """
         ...
-    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The kinetic energy, that of a fluid included.
 
         q (..., 1), z (..., 1) -> (...)
         """
         ...
-    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The potential energy.
 
         q (..., 1) -> (...)
         """
         ...
-    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Kinetic and potential energy.
 
         q (..., 1), z (..., 1) -> (...)
         """
         ...
-    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The distance from a singularity of the coordinates: 0 there, 1 at best.
 
         q (..., 1) -> (...)
         """
         ...
-    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The configuration moved by an increment that is seen from the body.
 
         q (..., 1), increment (..., 1) -> (..., 1)
         """
         ...
-    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The shortest increment from q to the other.
 
         q (..., 1), other (..., 1) -> (..., 1)
         """
         ...
-    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The increment seen from the body that changes the numbers of q by so much, to first order.
 
         q (..., 1), change (..., 1) -> (..., 1)
@@ -1242,7 +1273,7 @@ class Cart(Kernel):
       throttle: input
     """
     def __init__(self, *, mass: float, lag: float) -> None: ...
-    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The rates of the speeds.
 
         q (..., 2), z (..., 1), input (..., 1) -> (..., 1)
@@ -1250,7 +1281,7 @@ class Cart(Kernel):
         Inputs: throttle (1,), input.
         """
         ...
-    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
 
         q (..., 2), z (..., 1), acceleration (..., 1), input (..., 1) -> (..., 1)
@@ -1258,7 +1289,7 @@ class Cart(Kernel):
         Inputs: throttle (1,), input.
         """
         ...
-    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Inverse dynamics at acceleration zero.
 
         q (..., 2), z (..., 1), input (..., 1) -> (..., 1)
@@ -1266,19 +1297,19 @@ class Cart(Kernel):
         Inputs: throttle (1,), input.
         """
         ...
-    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Second derivatives of the kinetic energy by z.
 
         q (..., 2) -> (..., 1, 1)
         """
         ...
-    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The velocity of the configuration, seen from the body.
 
         q (..., 2), z (..., 1) -> (..., 2)
         """
         ...
-    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Rates of the numbers of q, then those of z, for any solver.
 
         q (..., 2), z (..., 1), input (..., 1) -> (..., 3)
@@ -1286,19 +1317,19 @@ class Cart(Kernel):
         Inputs: throttle (1,), input.
         """
         ...
-    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Derivatives of the kinetic energy by z.
 
         q (..., 2), z (..., 1) -> (..., 1)
         """
         ...
-    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The speeds with these momenta.
 
         q (..., 2), p (..., 1) -> (..., 1)
         """
         ...
-    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The rates of the momenta.
 
         q (..., 2), p (..., 1), input (..., 1) -> (..., 1)
@@ -1306,43 +1337,43 @@ class Cart(Kernel):
         Inputs: throttle (1,), input.
         """
         ...
-    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The kinetic energy, that of a fluid included.
 
         q (..., 2), z (..., 1) -> (...)
         """
         ...
-    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The potential energy.
 
         q (..., 2) -> (...)
         """
         ...
-    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Kinetic and potential energy.
 
         q (..., 2), z (..., 1) -> (...)
         """
         ...
-    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The distance from a singularity of the coordinates: 0 there, 1 at best.
 
         q (..., 2) -> (...)
         """
         ...
-    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The configuration moved by an increment that is seen from the body.
 
         q (..., 2), increment (..., 2) -> (..., 2)
         """
         ...
-    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The shortest increment from q to the other.
 
         q (..., 2), other (..., 2) -> (..., 2)
         """
         ...
-    def linearize(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None) -> Linearize:
+    def linearize(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None, **parameters: ArrayLike) -> Linearize:
         """Velocity and acceleration with their derivatives by (increment, z), time and input.
 
         q (..., 2), z (..., 1), input (..., 1) -> rate (..., 3), by_state (..., 3, 3), by_time (..., 3), by_input (..., 3, 1)
@@ -1350,7 +1381,7 @@ class Cart(Kernel):
         Inputs: throttle (1,), input.
         """
         ...
-    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The increment seen from the body that changes the numbers of q by so much, to first order.
 
         q (..., 2), change (..., 2) -> (..., 2)
@@ -1374,103 +1405,103 @@ class Bead(Kernel):
       z_dot: rate of `z`
     """
     def __init__(self, *, mass: float, radius: float, g: float) -> None: ...
-    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The rates of the speeds.
 
         q (..., 2), z (..., 2) -> (..., 2)
         """
         ...
-    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
 
         q (..., 2), z (..., 2), acceleration (..., 2) -> (..., 2)
         """
         ...
-    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Inverse dynamics at acceleration zero.
 
         q (..., 2), z (..., 2) -> (..., 2)
         """
         ...
-    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Second derivatives of the kinetic energy by z.
 
         q (..., 2) -> (..., 2, 2)
         """
         ...
-    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The velocity of the configuration, seen from the body.
 
         q (..., 2), z (..., 2) -> (..., 2)
         """
         ...
-    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Rates of the numbers of q, then those of z, for any solver.
 
         q (..., 2), z (..., 2) -> (..., 4)
         """
         ...
-    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Derivatives of the kinetic energy by z.
 
         q (..., 2), z (..., 2) -> (..., 2)
         """
         ...
-    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The speeds with these momenta.
 
         q (..., 2), p (..., 2) -> (..., 2)
         """
         ...
-    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The rates of the momenta.
 
         q (..., 2), p (..., 2) -> (..., 2)
         """
         ...
-    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The kinetic energy, that of a fluid included.
 
         q (..., 2), z (..., 2) -> (...)
         """
         ...
-    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The potential energy.
 
         q (..., 2) -> (...)
         """
         ...
-    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Kinetic and potential energy.
 
         q (..., 2), z (..., 2) -> (...)
         """
         ...
-    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The distance from a singularity of the coordinates: 0 there, 1 at best.
 
         q (..., 2) -> (...)
         """
         ...
-    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The configuration moved by an increment that is seen from the body.
 
         q (..., 2), increment (..., 2) -> (..., 2)
         """
         ...
-    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The shortest increment from q to the other.
 
         q (..., 2), other (..., 2) -> (..., 2)
         """
         ...
-    def multipliers(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def multipliers(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Lagrange multipliers.
 
         q (..., 2), z (..., 2) -> (..., 2)
         """
         ...
-    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The increment seen from the body that changes the numbers of q by so much, to first order.
 
         q (..., 2), change (..., 2) -> (..., 2)

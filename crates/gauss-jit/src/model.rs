@@ -259,6 +259,12 @@ impl Model {
         &self.derived.data.parameters.list
     }
 
+    /// The numbers of the parameters that the equations have, by which `by_parameters` differentiates, in the order of
+    /// its columns: `m`, `center[2]`, `inertia[1][0]`, `arm.center_of_mass[2]`.
+    pub fn parameter_names(&self) -> &[String] {
+        self.derived.data.constants.arguments.first().map_or(&[], |numbers| &numbers.components)
+    }
+
     /// The names of the methods.
     pub fn methods(&self) -> impl Iterator<Item = &str> {
         self.derived.data.methods.iter().map(|program| program.name.as_str())

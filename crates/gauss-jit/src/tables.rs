@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use gauss_codegen::parameters::{self, Interpolation};
-use gauss_codegen::program::OwnFunction;
+use gauss_codegen::program::{MOST_VARIABLES, OwnFunction};
 use gauss_runtime::table::{Joined, Table, TableFault};
 
 use crate::error::TableMistake;
@@ -41,6 +41,12 @@ impl Tables {
         });
         let list = list.collect();
         if mistakes.is_empty() { Ok(Self { list }) } else { Err(mistakes) }
+    }
+
+    /// The value of a table that a program calls, or the derivative of it, as the program says; none where its numbers
+    /// were not given. Arguments behind its variables are left out.
+    pub fn value(&self, function: OwnFunction, arguments: [f64; MOST_VARIABLES]) -> Option<f64> {
+        self.get(function).map(|table| table.at(function.orders, arguments))
     }
 
     /// The table that a program calls; none where its numbers were not given.

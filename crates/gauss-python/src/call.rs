@@ -1,24 +1,28 @@
 //! One call of a method: arrays in, lanes and threads, arrays out.
 
+use std::ops::Range;
 use std::sync::Mutex;
 
 use numpy::{PyArrayDyn, PyArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::{PyDict, PyTuple};
 use rayon::prelude::*;
 
 use crate::arrays::{self, Batch, Rows, shown};
-use crate::kernels::{AnyKernel, AnyScene, OffGroup};
+use crate::kernels::{AnyKernel, AnyScene, OffGroup, Violation};
 use crate::memory::Source;
 use crate::methods::{Id, SPECS, Spec, Work};
+use crate::own::{self, OwnParameter};
 use crate::steps::off_group_words;
-use crate::{threads, tuples};
+use crate::{parameters, threads, tuples};
 
 /// From so many rows on other threads of Python may run meanwhile: letting them costs as much as some rows.
 const DETACHED: usize = 64;
 /// Rows that a thread takes at a time: whole lanes, and work for some microseconds.
 const CHUNK: usize = 512;
+/// The same of rows for each of which a kernel is made.
+const CHUNK_OF_KERNELS: usize = 16;
 
 /// Values of a call that were given in Python: arrays by their slots, the time, arrays for results.
 pub struct Given<'a, 'py> {
@@ -30,6 +34,25 @@ pub struct Given<'a, 'py> {
     pub frame: usize,
     /// The array for the result; a tuple of them where there are several.
     pub out: Option<&'a Bound<'py, PyAny>>,
+    /// Parameters in place of those of the kernel: one for all, or one for each state.
+    pub parameters: Option<&'a Bound<'py, PyDict>>,
+}
+
+/// A row that cannot be computed.
+pub enum Fault {
+    /// A rotation of it is none.
+    OffGroup(OffGroup),
+    /// Its parameters, or those of all rows, are of no body.
+    Parameters(Option<usize>, Vec<Violation>),
+}
+
+impl Fault {
+    fn row(&self) -> usize {
+        match self {
+            Self::OffGroup(off) => off.row,
+            Self::Parameters(row, _) => row.unwrap_or(0),
+        }
+    }
 }
 
 /// An array by the name of its argument, where it was given.
@@ -60,6 +83,7 @@ pub fn call<'py>(
             spec.clause
         )));
     }
+    let own = own::parameters(scene, spec.name, given.parameters)?;
     let mut reading = Reading::new(given.frame);
     let arguments = spec.arguments.iter().map(|argument| {
         let size = scene.sizes().get(argument.size);
@@ -75,7 +99,7 @@ pub fn call<'py>(
     reading.read_time(given.t)?;
     let times = std::mem::take(&mut reading.rows[TIME]);
     let rows = reading.rows;
-    let batch = batch_of(scene, spec, &rows, times.as_ref())?;
+    let batch = batch_of(scene, spec, &rows, times.as_ref(), &own)?;
     let count: usize = batch.axes.iter().product();
     let mut work = reading.work;
     for argument in spec.arguments {
@@ -89,8 +113,8 @@ pub fn call<'py>(
         work.t = times.source(usize::from(!times.axes().is_empty()));
     }
     let rounded = given.out.map(|out| singles(scene, spec, batch, out)).transpose()?.flatten();
-    let own = given.out.filter(|_| rounded.is_none());
-    let results = results(py, scene, spec, batch, own, (&rows, &times))?;
+    let out = given.out.filter(|_| rounded.is_none());
+    let results = results(py, scene, spec, batch, out, (&rows, &times))?;
     for (k, (result, array)) in spec.results.iter().zip(&results).enumerate() {
         let stride = result.axes.iter().map(|axis| scene.sizes().get(*axis)).product();
         work.results[k] = arrays::target(array, stride);
@@ -101,7 +125,7 @@ pub fn call<'py>(
         let source = unsafe { Source::new(&raw const reading.zero, 0) };
         work.t = source;
     }
-    compute(py, kernel, id, &work, count).map_err(|off| off_group(spec, &off, batch))?;
+    compute(py, kernel, id, &work, count, &own).map_err(|fault| refused(py, (scene, spec), fault, batch))?;
     for (result, single) in results.iter().zip(rounded.into_iter().flatten()) {
         arrays::round(result, &single)?;
     }
@@ -146,6 +170,7 @@ fn batch_of<'a>(
     spec: &Spec,
     rows: &'a [Named<'_>; 5],
     times: Option<&'a (&'static str, Rows<'_>)>,
+    own: &'a [OwnParameter],
 ) -> PyResult<Batch<'a>> {
     let mut batch = Batch { axes: &[], of: "" };
     let of_arguments = spec.arguments.iter().filter_map(|argument| {
@@ -153,7 +178,8 @@ fn batch_of<'a>(
         Some((*name, rows.leading(name, scene.sizes().get(argument.size))))
     });
     let of_time = times.map(|(name, rows)| (*name, Ok(rows.axes())));
-    for (name, axes) in of_arguments.chain(of_time) {
+    let of_parameters = own.iter().map(|own| (own.name, Ok(own.leading())));
+    for (name, axes) in of_arguments.chain(of_time).chain(of_parameters) {
         let axes = axes?;
         if axes.is_empty() || axes == batch.axes {
             continue;
@@ -240,11 +266,51 @@ fn singles<'py>(
 
 /// All rows, while other threads of Python run where there are many. All arrays of the method have these rows: `call`
 /// has compared their shapes.
-fn compute(py: Python<'_>, kernel: &dyn AnyKernel, id: Id, work: &Work, count: usize) -> Result<(), OffGroup> {
+fn compute(
+    py: Python<'_>,
+    kernel: &dyn AnyKernel,
+    id: Id,
+    work: &Work,
+    count: usize,
+    own: &[OwnParameter],
+) -> Result<(), Fault> {
     // SAFETY: as above.
     #[allow(unsafe_code)]
-    let all = || unsafe { rows(kernel, id, work, count) };
-    if count < DETACHED { all() } else { py.detach(all) }
+    let all = || unsafe { rows_with(kernel, id, work, count, own) };
+    if own.is_empty() && count < DETACHED { all() } else { py.detach(all) }
+}
+
+/// All rows, with parameters of their own, where there are any.
+///
+/// # Safety
+/// As of [`rows`].
+#[allow(unsafe_code)]
+pub unsafe fn rows_with(
+    kernel: &dyn AnyKernel,
+    id: Id,
+    work: &Work,
+    count: usize,
+    own: &[OwnParameter],
+) -> Result<(), Fault> {
+    let with = |row: Option<usize>| {
+        let made = kernel.with(own::numbers(own, kernel.numbers(), row.unwrap_or(0)));
+        made.map_err(|all| Fault::Parameters(row, all))
+    };
+    // SAFETY: of this function.
+    let shared = |kernel: &dyn AnyKernel| unsafe { rows(kernel, id, work, count) }.map_err(Fault::OffGroup);
+    let each = |range: Range<usize>| {
+        range.into_iter().try_for_each(|row| {
+            let one = with(Some(row))?;
+            // SAFETY: of this function.
+            let computed = unsafe { one.run(id, &work.beginning(row), 0..1) };
+            computed.map_err(|off| Fault::OffGroup(OffGroup { row, ..off }))
+        })
+    };
+    match own {
+        [] => shared(kernel),
+        own if own.iter().all(|own| own.leading().is_empty()) => shared(&*with(None)?),
+        _ => in_chunks(count, CHUNK_OF_KERNELS, each, Fault::row),
+    }
 }
 
 /// All rows, on all threads where there are many.
@@ -252,35 +318,66 @@ fn compute(py: Python<'_>, kernel: &dyn AnyKernel, id: Id, work: &Work, count: u
 /// # Safety
 /// All arrays that the method names have these rows, each of the sizes of the scene.
 #[allow(unsafe_code)]
-pub unsafe fn rows(kernel: &dyn AnyKernel, id: Id, work: &Work, count: usize) -> Result<(), OffGroup> {
+unsafe fn rows(kernel: &dyn AnyKernel, id: Id, work: &Work, count: usize) -> Result<(), OffGroup> {
     // SAFETY: of this function.
     let run = |rows| unsafe { kernel.run(id, work, rows) };
+    in_chunks(count, CHUNK, run, |off| off.row)
+}
+
+/// All rows, on all threads where there are more than a thread takes at a time; the first row that is refused.
+fn in_chunks<E: Send>(
+    count: usize,
+    chunk: usize,
+    run: impl Fn(Range<usize>) -> Result<(), E> + Sync,
+    row: impl Fn(&E) -> usize + Sync,
+) -> Result<(), E> {
     // One thread alone need not be woken, and where the system gives none this one computes.
-    let pool = if count > CHUNK { threads::pool().ok().filter(|pool| pool.current_num_threads() > 1) } else { None };
+    let pool = if count > chunk { threads::pool().ok().filter(|pool| pool.current_num_threads() > 1) } else { None };
     let Some(pool) = pool else { return run(0..count) };
-    let first: Mutex<Option<OffGroup>> = Mutex::new(None);
+    let first: Mutex<Option<E>> = Mutex::new(None);
     pool.install(|| {
-        (0..count.div_ceil(CHUNK)).into_par_iter().for_each(|chunk| {
-            if let Err(off) = run(chunk * CHUNK..((chunk + 1) * CHUNK).min(count))
+        (0..count.div_ceil(chunk)).into_par_iter().for_each(|k| {
+            if let Err(fault) = run(k * chunk..((k + 1) * chunk).min(count))
                 && let Ok(mut first) = first.lock()
-                && first.is_none_or(|other| off.row < other.row)
+                && first.as_ref().is_none_or(|other| row(&fault) < row(other))
             {
-                *first = Some(off);
+                *first = Some(fault);
             }
         });
     });
     first.into_inner().ok().flatten().map_or(Ok(()), Err)
 }
 
+/// The exception for a row that is refused.
+fn refused(py: Python<'_>, (scene, spec): (&dyn AnyScene, &Spec), fault: Fault, batch: Batch<'_>) -> PyErr {
+    match fault {
+        Fault::OffGroup(off) => off_group(spec, &off, batch),
+        Fault::Parameters(row, all) => no_body(py, scene, row.map(|row| index(row, batch)), all),
+    }
+}
+
 /// The message for a rotation that is none, with its place as Python indexes it.
 fn off_group(spec: &Spec, off: &OffGroup, batch: Batch<'_>) -> PyErr {
     let name = spec.arguments.iter().find(|argument| argument.slot == off.slot).map_or("q", |argument| argument.name);
-    let (mut rest, mut index) = (off.row, Vec::new());
+    let mut index = index(off.row, batch);
+    index.push(format!("{}:{}", off.place, off.place + off.count));
+    PyValueError::new_err(format!("{name}[{}] is no rotation: {}", index.join(", "), off_group_words(off.squares)))
+}
+
+/// The place of a row in the batch, as Python indexes it.
+fn index(row: usize, batch: Batch<'_>) -> Vec<String> {
+    let (mut rest, mut index) = (row, Vec::new());
     for axis in batch.axes.iter().rev() {
         index.push((rest % axis).to_string());
         rest /= axis;
     }
     index.reverse();
-    index.push(format!("{}:{}", off.place, off.place + off.count));
-    PyValueError::new_err(format!("{name}[{}] is no rotation: {}", index.join(", "), off_group_words(off.squares)))
+    index
+}
+
+/// The exception for parameters that no body can have, of a row by its place.
+fn no_body(py: Python<'_>, scene: &dyn AnyScene, row: Option<Vec<String>>, all: Vec<Violation>) -> PyErr {
+    let place = row.map_or_else(String::new, |row| format!(", in row [{}]", row.join(", ")));
+    let mistakes = all.iter().map(|one| (one.field.clone(), format!("{}{place}", one.message))).collect();
+    parameters::raised(py, scene, mistakes, all)
 }

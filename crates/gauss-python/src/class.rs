@@ -173,6 +173,13 @@ impl Kernel {
         self.scene().contacts().iter().map(|contact| contact.name).collect()
     }
 
+    /// The numbers of the parameters by which `by_parameters` differentiates, in the order of its columns; none without
+    /// the clause `linearize(parameters)`.
+    #[getter]
+    fn parameter_names(&self) -> Vec<&'static str> {
+        self.scene().parameters().to_vec()
+    }
+
     /// The parameters by name.
     #[getter]
     fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {

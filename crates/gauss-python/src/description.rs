@@ -93,6 +93,25 @@ impl Description {
         self.configuration().filter(|(_, part)| part.unit > 0).map(|(place, part)| (place, part.unit))
     }
 
+    /// The field that a number of the parameters is in, by its name as in Rust (`m`, `center[2]`, `arm.inertia[1][0]`),
+    /// and its place there.
+    pub fn place_of(&self, number: &str) -> Option<(usize, usize)> {
+        let (path, indices) = number.find('[').map_or((number, ""), |at| number.split_at(at));
+        let indices = indices.split(['[', ']']).filter(|word| !word.is_empty()).map(|word| word.parse().ok());
+        let indices: Vec<usize> = indices.collect::<Option<_>>()?;
+        let (name, part) = path.split_once('.').unwrap_or((path, ""));
+        let field = self.fields.iter().position(|field| field.name == name)?;
+        let (first, axes): (usize, &[usize]) = match (self.fields[field].shape, part) {
+            (Shape::Array(axes), "") => (0, axes),
+            (Shape::Body, "mass") => (0, &[]),
+            (Shape::Body, "center_of_mass") => (1, &[3]),
+            (Shape::Body, "inertia") => (4, &[3, 3]),
+            _ => return None,
+        };
+        let place = indices.iter().zip(axes).fold(0, |place, (index, axis)| place * axis + index);
+        (indices.len() == axes.len()).then_some((field, first + place))
+    }
+
     /// Count of the numbers of the input.
     #[must_use]
     pub fn input_size(&self) -> usize {

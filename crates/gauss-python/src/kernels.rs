@@ -36,6 +36,8 @@ pub trait AnyScene: Send + Sync {
     fn frames(&self) -> &[&'static str];
     /// Joints whose reactions are methods.
     fn joints(&self) -> &[&'static str];
+    /// Names of the numbers of parameters that there are derivatives by; none without the clause for them.
+    fn parameters(&self) -> &[&'static str];
     /// Contacts, ranges and dry joints, of which runs have the forces.
     fn contacts(&self) -> &[Contact];
     /// Whether kernels have the method.
@@ -84,6 +86,11 @@ pub trait AnyKernel: Send + Sync {
     fn scene(&self) -> &dyn AnyScene;
     /// Its parameters.
     fn numbers(&self) -> &[f64];
+    /// The kernel of the same scene with other parameters.
+    ///
+    /// # Errors
+    /// Parameters that no body can have.
+    fn with(&self, numbers: Vec<f64>) -> Result<Box<dyn AnyKernel>, Vec<Violation>>;
     /// Remarks on what of the scene's file does not act, and on what is likely not meant.
     fn warnings(&self) -> Vec<String>;
     /// Computes rows; the first row whose rotation is none, with how far the squares of its numbers are from 1.
@@ -146,7 +153,7 @@ impl<S: Scene> Registered<S> {
     pub fn new() -> Self {
         let (mut single, mut packed, mut steps) = (Table::new(), Table::new(), Methods::new());
         S::offer(&mut single, &mut packed, &mut steps);
-        let sizes = Sizes::of::<S::Single>(single.multipliers);
+        let sizes = Sizes::of::<S::Single>(single.multipliers, single.parameters.len());
         let description = S::description();
         let blocks = description.unit_blocks().collect();
         Self { single, packed, steps, description, sizes, blocks }
@@ -191,6 +198,10 @@ impl<S: Scene> AnyScene for Registered<S> {
 
     fn joints(&self) -> &[&'static str] {
         &self.single.joints
+    }
+
+    fn parameters(&self) -> &[&'static str] {
+        self.single.parameters
     }
 
     fn contacts(&self) -> &[Contact] {
@@ -359,6 +370,10 @@ impl<S: Scene> AnyKernel for Instance<S> {
 
     fn numbers(&self) -> &[f64] {
         &self.numbers
+    }
+
+    fn with(&self, numbers: Vec<f64>) -> Result<Box<dyn AnyKernel>, Vec<Violation>> {
+        Arc::clone(&self.scene).kernel(numbers)
     }
 
     fn warnings(&self) -> Vec<String> {

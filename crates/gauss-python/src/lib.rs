@@ -34,9 +34,9 @@
 //! Rooms, each knows those before it: `description`, `parameter` (what is known of a struct, its fields), `threads`,
 //! `memory` (the only access to arrays by address), `methods` (methods of a kernel over rows), `steps` (one run:
 //! numbers in, columns out), `scene` (a struct as Python sees it), `runs` (many), `kernels` (its kernels, their types
-//! forgotten), and what Python sees: `errors`, `arrays`, `tuples`, `columns`, `call`, `parameters`, `class` with
+//! forgotten), and what Python sees: `errors`, `arrays`, `tuples`, `columns`, `own`, `call`, `parameters`, `class` with
 //! `of_kernels`, `states` and `simulation`, which knows `calls` (functions of Python in a run) and `given` (what a run
-//! is given), `run`, `ends`, `stubs`, `jax` (the door to XLA), `make`. With the feature `loaded` models that come at
+//! is given), `run`, `page` (a run in a browser), `ends`, `stubs`, `jax` (the door to XLA), `make`. With the feature `loaded` models that come at
 //! run time are such scenes as well.
 
 #![deny(missing_docs, unsafe_code)]
@@ -67,6 +67,8 @@ mod make;
 mod memory;
 mod methods;
 mod of_kernels;
+mod own;
+mod page;
 mod parameter;
 mod parameters;
 mod run;

@@ -2,6 +2,7 @@
 //! One for each line of [`SPECS`](crate::methods::SPECS), whose words the stubs have.
 
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::call::{Given, call};
 use crate::class::Kernel;
@@ -11,13 +12,13 @@ type Any<'py> = Bound<'py, PyAny>;
 type Result<'py> = PyResult<Bound<'py, PyAny>>;
 
 /// A method by its name and number, what Python gives it (the [name] of a frame, arrays, after a semicolon one that may
-/// be left out) and these by their slots. All have `t` and `out` besides.
+/// be left out) and these by their slots. All have `t` and `out` besides, and parameters of rows.
 macro_rules! methods {
     ($($method:ident $id:ident ($([$frame:ident])? $($array:ident),* $(; $optional:ident)?) [$($slot:expr),*];)*) => {
         #[pymethods]
         #[allow(clippy::too_many_arguments)] // Keywords.
         impl Kernel {$(
-            #[pyo3(signature = ($($frame,)? $($array,)* $($optional=None,)? *, t=None, out=None))]
+            #[pyo3(signature = ($($frame,)? $($array,)* $($optional=None,)? *, t=None, out=None, **parameters))]
             fn $method<'py>(
                 &self,
                 py: Python<'py>,
@@ -26,6 +27,7 @@ macro_rules! methods {
                 $($optional: Option<&Any<'py>>,)?
                 t: Option<&Any<'py>>,
                 out: Option<&Any<'py>>,
+                parameters: Option<&Bound<'py, PyDict>>,
             ) -> Result<'py> {
                 if SPECS[Id::$id as usize].has_forces() {
                     let way = concat!("kernel.without_contacts().", stringify!($method));
@@ -33,7 +35,7 @@ macro_rules! methods {
                 }
                 let frames: &[usize] = &[$(self.$frame($frame)?)?];
                 let frame = frames.first().copied().unwrap_or(0);
-                call(py, self.kernel(), Id::$id, &Given { arguments: [$($slot),*], t, frame, out })
+                call(py, self.kernel(), Id::$id, &Given { arguments: [$($slot),*], t, frame, out, parameters })
             }
         )*}
     };
@@ -71,4 +73,5 @@ methods! {
     center_jacobian CenterJacobian (q) [Some(q), None, None, None];
     reaction Reaction ([joint] q, z; input) [Some(q), Some(z), None, input];
     tangent Tangent (q, change) [Some(q), None, Some(change), None];
+    by_parameters ByParameters (q, z; input) [Some(q), Some(z), None, input];
 }

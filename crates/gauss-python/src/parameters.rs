@@ -12,7 +12,7 @@ use crate::kernels::{AnyKernel, AnyScene, Violation};
 use crate::steps::{off_group, off_group_words};
 
 /// Mistakes in fields: the name of each, and why it is one.
-type Mistakes = Vec<(String, String)>;
+pub type Mistakes = Vec<(String, String)>;
 
 /// The parts of a body, with their numbers.
 const BODY: [(&str, &[usize]); 3] = [("mass", &[]), ("center_of_mass", &[3]), ("inertia", &[3, 3])];
@@ -48,7 +48,8 @@ pub fn kernel(
     Err(raised(py, &**scene, mistakes, violations))
 }
 
-fn raised(py: Python<'_>, scene: &dyn AnyScene, mistakes: Mistakes, violations: Vec<Violation>) -> PyErr {
+/// The exception for mistakes in fields, and for numbers that break rules.
+pub fn raised(py: Python<'_>, scene: &dyn AnyScene, mistakes: Mistakes, violations: Vec<Violation>) -> PyErr {
     let lines = mistakes.iter().map(|(name, why)| match why.starts_with(name.as_str()) || why.starts_with('`') {
         true => format!("\n  {why}"),
         false => format!("\n  {name} {why}"),

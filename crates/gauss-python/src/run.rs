@@ -46,7 +46,7 @@ impl Run {
     }
 
     /// The columns in panels: configuration, speeds, energies, gaps and slips of contacts, their forces.
-    fn panels(&self) -> Vec<Vec<String>> {
+    pub fn panels(&self) -> Vec<(&'static str, Vec<String>)> {
         let (state, rest) = self.columns.names()[1..].split_at(self.coordinates + self.speeds);
         let (q, z) = state.split_at(self.coordinates);
         let (energies, contacts) = rest.split_at(2);
@@ -55,9 +55,20 @@ impl Run {
             ["force", "friction", "drilling"].iter().any(|word| what.starts_with(word))
         };
         let (forces, rates): (Vec<&String>, Vec<&String>) = contacts.iter().partition(is_force);
-        let all = [q.iter().collect(), z.iter().collect(), energies.iter().collect(), rates, forces];
-        let all = all.into_iter().map(|panel: Vec<&String>| panel.into_iter().cloned().collect::<Vec<_>>());
-        all.filter(|panel| !panel.is_empty()).collect()
+        let all = [
+            ("configuration", q.iter().collect()),
+            ("speeds", z.iter().collect()),
+            ("energy", energies.iter().collect()),
+            ("contacts", rates),
+            ("forces", forces),
+        ];
+        let all = all.into_iter().map(|(title, own): (_, Vec<&String>)| (title, own.into_iter().cloned().collect()));
+        all.filter(|(_, panel): &(_, Vec<String>)| !panel.is_empty()).collect()
+    }
+
+    /// The names of its columns: the time, the numbers of q and z, and more.
+    pub fn column_names(&self) -> &[String] {
+        self.columns.names()
     }
 
     /// When it ended.
@@ -248,9 +259,10 @@ impl Run {
     #[pyo3(signature = (*names))]
     fn plot<'py>(slf: &Bound<'py, Self>, names: &Bound<'py, PyTuple>) -> PyResult<Bound<'py, PyAny>> {
         let py = slf.py();
+        let panels: Vec<Vec<String>> = slf.get().panels().into_iter().map(|(_, panel)| panel).collect();
         let text = std::ffi::CString::new(include_str!("plot.py"))?;
         let module = PyModule::from_code(py, &text, c"gauss_python_plot.py", c"gauss_python_plot")?;
-        module.getattr("plot")?.call1((slf, names, slf.get().panels()))
+        module.getattr("plot")?.call1((slf, names, panels))
     }
 
     fn __repr__(&self) -> String {

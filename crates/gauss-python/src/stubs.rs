@@ -90,7 +90,10 @@ fn method(spec: &Spec, names: &Names<'_>, is_optional: impl Fn(&Argument) -> boo
         _ => (spec.class_name(), "tuple[Array, ...] | tuple[Single, ...]".to_owned()),
     };
     let head = format!("    def {}(self, {}, *, t: ArrayLike = 0.0,", spec.name, arguments.join(", "));
-    format!("{head} out: {out} | None = None) -> {result}:\n{}        ...\n", docstring(words, 8))
+    format!(
+        "{head} out: {out} | None = None, **parameters: ArrayLike) -> {result}:\n{}        ...\n",
+        docstring(words, 8)
+    )
 }
 
 /// `q (..., 2), z (..., 2) -> (..., 2)`.

@@ -6,7 +6,7 @@ use gauss_runtime::prelude::*;
 #[derive(GaussDynamics)]
 #[gauss(
     python,
-    linearize(hessian, inverse),
+    linearize(hessian, inverse, parameters),
     coordinates(angle),
     particle(mass = mass, position = [length * sin(angle), 0, -length * cos(angle)]),
     input(motor = "N m"),
@@ -29,7 +29,7 @@ pub struct Pendulum<T> {
 #[gauss(
     python,
     taylor,
-    linearize,
+    linearize(parameters),
     chart = left_invariant,
     define(v = body.relative_velocity, w = body.body_angular_velocity),
     force(fins, at = [-0.8, 0, 0], value = [0, -lift * v.x * (v.y - 0.8 * w.z), -lift * v.x * (v.z + 0.8 * w.y)]),

@@ -4,6 +4,7 @@ import threading
 
 import numpy as np
 import pytest
+import scenes
 
 EPS = np.finfo(float).eps
 
@@ -278,3 +279,67 @@ def test_threads_share_a_kernel(torpedo, random):
     [thread.start() for thread in threads]
     [thread.join() for thread in threads]
     assert all(np.array_equal(result, expected) for result in results)
+
+
+def test_rows_have_parameters_of_their_own(pendulum, random):
+    q, z, u = random.normal(size=(3, 700, 1))
+    lengths = np.linspace(0.2, 1.1, 700)
+    kernels = [scenes.Pendulum(mass=2.0, length=length, g=9.81) for length in lengths]
+    alone = np.array([kernel.acceleration(*row) for kernel, *row in zip(kernels, q, z, u)])
+    found = pendulum.acceleration(q, z, u, length=lengths)
+    # A pendulum has the bits that it has alone, in any batch, and another way are those of the formula.
+    assert np.array_equal(found, alone)
+    exact = (u - 2.0 * 9.81 * lengths[:, None] * np.sin(q)) / (2.0 * lengths[:, None] ** 2)
+    np.testing.assert_allclose(found, exact, rtol=0, atol=20 * EPS * np.abs(exact).max())
+    # Into arrays of one's own, of any type that takes results, and in any shape of the batch.
+    out = np.empty_like(q)
+    assert pendulum.acceleration(q, z, u, length=lengths, out=out) is out and np.array_equal(out, alone)
+    single = np.empty((700, 1), dtype=np.float32)
+    pendulum.acceleration(q, z, u, length=lengths, out=single)
+    assert np.array_equal(single, alone.astype(np.float32))
+    shaped = [own.reshape(7, 100, 1) for own in (q, z, u)]
+    assert np.array_equal(pendulum.acceleration(*shaped, length=lengths.reshape(7, 100)), alone.reshape(7, 100, 1))
+    # One state for all, and parameters of which one is for all.
+    several = pendulum.linearize([0.3], [0.2], [0.1], length=lengths[:5], mass=3.0)
+    ones = [scenes.Pendulum(mass=3.0, length=own, g=9.81).linearize([0.3], [0.2], [0.1]) for own in lengths[:5]]
+    assert all(np.array_equal(part, np.stack(own)) for part, own in zip(several, zip(*ones)))
+    other = scenes.Pendulum(mass=2.0, length=0.7, g=9.81)
+    assert np.array_equal(pendulum.acceleration(q, z, u, length=0.7), other.acceleration(q, z, u))
+    assert pendulum.energy([0.1], [0.2], length=[]).shape == (0,)
+
+
+def test_parameters_of_rows_are_arrays_of_any_shape(torpedo):
+    added = np.linspace(1, 2, 5)[:, None] * np.array([0.9, 35, 35, 0.07, 4.9, 4.9])
+    state = torpedo.state(), np.zeros(6)
+    own = dict(torpedo.parameters)
+    expected = [scenes.Torpedo(**own | {"added": row}).mass_matrix(state[0][0]) for row in added]
+    assert np.array_equal(torpedo.mass_matrix(state[0][0], added=added), expected)
+    # Times and frames go with them.
+    arm = scenes.Arm(g=9.81)
+    assert np.array_equal(arm.pose("tool", [0.1, 0.2], g=[1.0, 2.0]), [arm.pose("tool", [0.1, 0.2])] * 2)
+
+
+def test_mistakes_in_parameters_of_rows(pendulum, torpedo, wire):
+    q, z, u = np.zeros((6, 1)), np.zeros((6, 1)), np.zeros((6, 1))
+    with pytest.raises(TypeError, match=r"acceleration has no argument force, and Pendulum no parameter .* mass, length, g"):
+        pendulum.acceleration(q, z, u, force=1.0)
+    with pytest.raises(ValueError, match=r"leading axes differ: \(6,\) of q, \(5,\) of length"):
+        pendulum.acceleration(q, z, u, length=np.ones(5))
+    with pytest.raises(ValueError, match=r"added has shape \(6, 5\); expected \(\.\.\., 6\)"):
+        torpedo.mass_matrix(torpedo.state()[0], added=np.ones((6, 5)))
+    with pytest.raises(TypeError, match="length is no array of real numbers"):
+        pendulum.acceleration(q, z, u, length="long")
+    # Bodies are those of a kernel.
+    with pytest.raises(TypeError, match="no parameter of that name that rows may have for themselves: there are radius, g"):
+        wire.mass_matrix(wire.state()[0], block={"mass": 1.0, "inertia": [1, 1, 1]})
+    # The first row that no body can have, with its place; rows on several threads too.
+    lengths = np.full((20, 50), 0.5)
+    lengths[3, 7], lengths[9, 1] = -1.0, np.nan
+    batch = np.zeros((20, 50, 1))
+    masses = np.where(lengths > 0, 2.0, lengths)
+    with pytest.raises(scenes.ParameterError, match=r"mass.*, in row \[3, 7\]") as raised:
+        pendulum.acceleration(batch, batch, batch, mass=masses)
+    assert [field for field, _ in raised.value.fields] == ["mass"] and raised.value.violations[0][1] == -1.0
+    with pytest.raises(scenes.ParameterError) as raised:
+        pendulum.acceleration(q, z, u, mass=-1.0)
+    assert "row" not in str(raised.value)

@@ -207,3 +207,63 @@ else:
     raise AssertionError
 """
     subprocess.run([sys.executable, "-c", program], check=True)
+
+
+def test_parameters_of_rows(pendulum, torpedo, random):
+    functions = scenes.jax(pendulum)
+    q, z = states(pendulum, random, (40,))
+    lengths = np.linspace(0.3, 0.8, 40)
+    expected = pendulum.acceleration(q, z, [0.3], length=lengths, mass=1.5)
+    assert np.array_equal(functions.acceleration(q, z, [0.3], length=lengths, mass=1.5), expected)
+    batched = jax.jit(jax.vmap(lambda q, z, length: functions.acceleration(q, z, jnp.array([0.3]), length=length, mass=1.5)))
+    assert np.array_equal(batched(q, z, lengths), expected)
+    # Vectors have their own axes behind those of the batch.
+    added = np.linspace(1, 2, 5)[:, None] * np.array([0.9, 35, 35, 0.07, 4.9, 4.9])
+    rest = torpedo.state()[0]
+    assert np.array_equal(scenes.jax(torpedo).mass_matrix(rest, added=added), torpedo.mass_matrix(rest, added=added))
+
+
+def test_gradients_by_parameters(pendulum, torpedo, random):
+    functions = scenes.jax(pendulum)
+
+    def acceleration(length, g):
+        return functions.acceleration(jnp.array([0.7]), jnp.array([0.2]), jnp.array([0.3]), length=length, g=g)[0]
+
+    # u / (m l²) − g sin(angle) / l.
+    by_length, by_g = jax.grad(acceleration, (0, 1))(0.4, 9.0)
+    assert abs(by_length - (-2 * 0.3 / (2.0 * 0.4**3) + 9.0 * np.sin(0.7) / 0.4**2)) < 200 * EPS
+    assert abs(by_g + np.sin(0.7) / 0.4) < 10 * EPS
+    # What reaches a parameter by the state as well.
+    whole = jax.jit(jax.grad(lambda length: functions.rates(length[None], 0.1 * length[None], [0.0], length=length)[1]))
+    assert abs(whole(0.4) - (-9.81 * np.cos(0.4) / 0.4 + 9.81 * np.sin(0.4) / 0.4**2)) < 200 * EPS
+    # By vectors, at a pose, beside differences: in any direction, and the matrix that they are taken from.
+    functions = scenes.jax(torpedo)
+    q, z = states(torpedo, random, ())
+    added = jnp.array([0.9, 35, 35, 0.07, 4.9, 4.9])
+    matrix = jax.jacobian(lambda added, lift: functions.acceleration(q, z, added=added, lift=lift), (0, 1))(added, 60.0)
+    names = torpedo.parameter_names
+    by_parameters = torpedo.by_parameters(q, z)[6:]
+    columns = [names.index(f"added[{k}]") for k in range(6)]
+    assert np.array_equal(matrix[0], by_parameters[:, columns])
+    assert np.array_equal(matrix[1], by_parameters[:, names.index("lift")])
+    for k in range(6):
+        step = np.zeros(6)
+        step[k] = STEP * added[k]
+        ends = [torpedo.acceleration(q, z, added=added + sign * step) for sign in (1, -1)]
+        difference = (ends[0] - ends[1]) / (2 * step[k])
+        # Of accelerations of order ten, over steps of a parameter of its own size.
+        assert abs(matrix[0][:, k] - difference).max() < 1e3 * ERROR * (1 + abs(ends[0]).max()) / added[k]
+
+
+def test_mistakes_with_parameters_of_rows(pendulum):
+    functions = scenes.jax(pendulum)
+    q, z, u = jnp.zeros(1), jnp.zeros(1), jnp.zeros(1)
+    with pytest.raises(ValueError, match=r"length has shape \(2, 1\)|shape"):
+        functions.acceleration(jnp.zeros((3, 1)), jnp.zeros((3, 1)), u, length=jnp.ones(2))
+    with pytest.raises(Exception, match="parameters of row 1 are of no body: .*mass"):
+        functions.acceleration(q, z, u, mass=jnp.array([1.0, -1.0]))
+    with pytest.raises(TypeError, match="inverse_dynamics has no derivatives by parameters; acceleration has them"):
+        jax.grad(lambda mass: functions.inverse_dynamics(q, z, q, u, mass=mass)[0])(1.0)
+    with pytest.raises(TypeError, match=r"derivatives by parameters need the clause linearize\(parameters\)"):
+        cart = scenes.jax(scenes.Cart(mass=3.0, lag=0.5))
+        jax.grad(lambda mass: cart.acceleration(jnp.ones(2), jnp.zeros(1), jnp.zeros(1), mass=mass)[0])(3.0)

@@ -1,7 +1,9 @@
 """Runs and ensembles."""
 
 import contextlib
+import json
 import os
+import re
 import signal
 import threading
 
@@ -312,3 +314,42 @@ def test_constraints_that_depend_on_one_another():
     # It swings as a pendulum of that length.
     assert abs(run.q[-1] - q).max() < 1e-8 and abs(np.hypot(*run.q.T) - 0.5).max() < 1e-12
     assert np.allclose(bead.acceleration(q, z), -9.81 * np.sin(1.0) * np.array([np.cos(1.0), np.sin(1.0)]), atol=1e-12)
+
+
+def test_runs_are_pages(pendulum, arm, tmp_path):
+    run = arm.simulate([0.3, 0.2], [0.0, 0.0], (0, 1), input=[0.0, 0.0], times=np.linspace(0, 1, 50))
+    page = run.page(kernel=arm, title="An <arm>", traces=["tool", ("tool", [0.1, 0, 0])], follow="tool", up=[0, 0, 1])
+    assert page.startswith("<!DOCTYPE html>") and "<arm>" not in page
+    data = json.loads(re.search(r'<script[^>]*type="application/json"[^>]*>(.*?)</script>', page, re.S)[1])
+    assert data["title"] == "An <arm>" and data["times"] == run.t.tolist()
+    assert [body["name"] for body in data["bodies"]] == ["tool"] and len(data["traces"]) == 2
+    # Poses are those of the kernel, as numbers of a screen: b, then the quaternion.
+    for number, pose in zip((0, 20, 49), np.array(data["bodies"][0]["poses"])[[0, 20, 49]]):
+        expected = arm.pose("tool", run.q[number])
+        assert abs(pose[:3] - expected[:3, 3]).max() < 1e-6
+        x, y, z, w = pose[3:]
+        turned = [1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)]
+        assert abs(turned - expected[:3, 0]).max() < 1e-6
+    panels = {panel["title"]: [curve["name"] for curve in panel["curves"]] for panel in data["panels"]}
+    assert panels == {
+        "configuration": ["shoulder", "elbow"],
+        "speeds": ["shoulder_dot", "elbow_dot"],
+        "energy": ["kinetic_energy", "potential_energy"],
+    }
+    # Without a kernel curves alone; written whole.
+    swing = pendulum.simulate([0.3], [0.0], (0, 1), input=[0.0])
+    assert swing.page(tmp_path / "new" / "swing.html") is None
+    assert "A run" in (tmp_path / "new" / "swing.html").read_text()
+
+
+def test_mistakes_with_pages(pendulum, arm, tmp_path):
+    run = pendulum.simulate([0.3], [0.0], (0, 1), input=[0.0])
+    with pytest.raises(ValueError, match="the run is not one of Arm: it has other columns"):
+        run.page(kernel=arm)
+    with pytest.raises(ValueError, match="no body is called `bob`"):
+        run.page(kernel=pendulum, rods=[("bob", "bob")], traces=["bob"])
+    with pytest.raises(ValueError, match="the direction that is up is zero"):
+        run.page(up=[0, 0, 0])
+    (tmp_path / "file").write_text("")
+    with pytest.raises(OSError, match="the page cannot be written"):
+        run.page(tmp_path / "file" / "swing.html")

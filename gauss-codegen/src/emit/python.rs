@@ -82,8 +82,8 @@ fn part(part: &Part) -> TokenStream {
 fn offers(derived: &Derived<'_, '_>) -> Vec<proc_macro2::Ident> {
     let wanted = &derived.item().wanted;
     let derivatives = derived.kernel.derivatives.iter().filter_map(|derivative| match derivative.kind {
-        DerivativeKind::ByState | DerivativeKind::OfInverse | DerivativeKind::Hessian => Some(derivative.kind.name()),
-        DerivativeKind::ByParameters | DerivativeKind::Regressor => None,
+        DerivativeKind::Regressor => None,
+        kind => Some(kind.name()),
     });
     let mut words: Vec<&str> = derivatives.collect();
     words.extend((!wanted.frames.is_empty()).then_some("frames"));

@@ -16,7 +16,9 @@ use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext};
 use cranelift_jit::{JITBuilder, JITModule};
 use cranelift_module::{Linkage, Module, default_libcall_names};
 
-use gauss_codegen::program::{BinaryFunction, Function, Input, Instruction, Operand, Program};
+use gauss_codegen::program::{
+    BinaryFunction, Function, Input, Instruction, MOST_VARIABLES, Operand, OwnFunction, Program,
+};
 
 use super::backend::{Backend, Compiled, MOST_ARGUMENTS};
 use super::functions::{binary, is_fused, unary};
@@ -286,22 +288,24 @@ impl Writer<'_, '_> {
                 let call = self.builder.ins().call(function, &arguments);
                 self.builder.inst_results(call)[0]
             }
-            Instruction::Own(function, arguments) => {
-                // It lives as long as the code, which holds it too.
-                let table = Arc::as_ptr(self.tables.get(function)?) as i64;
-                let [first, second, third] = function.orders;
-                let orders = u64::from_le_bytes([first, second, third, 0, 0, 0, 0, 0]);
-                let pointer = self.module.target_config().pointer_type();
-                let called = self.function(TABLE, &[pointer, I64, F64, F64, F64], true)?;
-                let [x, y, z] = arguments.map(|own| self.value(own));
-                let (table, orders) =
-                    (self.builder.ins().iconst(pointer, table), self.builder.ins().iconst(I64, orders as i64));
-                let call = self.builder.ins().call(called, &[table, orders, x, y, z]);
-                self.builder.inst_results(call)[0]
-            }
+            Instruction::Own(function, arguments) => self.table(function, arguments)?,
             // Pairs are written together.
             Instruction::SineCosine(_) => return None,
         })
+    }
+
+    /// A call of a table, which lives as long as the code: this holds it too.
+    fn table(&mut self, function: OwnFunction, arguments: [Operand; MOST_VARIABLES]) -> Option<Value> {
+        let table = Arc::as_ptr(self.tables.get(function)?) as i64;
+        let [first, second, third] = function.orders;
+        let orders = i64::from_le_bytes([first, second, third, 0, 0, 0, 0, 0]);
+        let pointer = self.module.target_config().pointer_type();
+        let called = self.function(TABLE, &[pointer, I64, F64, F64, F64], true)?;
+        let [x, y, z] = arguments.map(|own| self.value(own));
+        let [table, orders] =
+            [(pointer, table), (I64, orders)].map(|(ty, number)| self.builder.ins().iconst(ty, number));
+        let call = self.builder.ins().call(called, &[table, orders, x, y, z]);
+        Some(self.builder.inst_results(call)[0])
     }
 
     fn sum(&mut self, a: Value, b: Value, c: Value) -> Value {

@@ -75,9 +75,7 @@ impl Interpreted {
             Instruction::Call(function, a) => unary(function)(at(a)),
             Instruction::Binary(function, a, b) => binary(function)(at(a), at(b)),
             // Models whose equations call functions of Rust, or tables without numbers, have no kernels.
-            Instruction::Own(function, arguments) => {
-                self.tables.get(function).map_or(f64::NAN, |table| table.at(function.orders, arguments.map(at)))
-            }
+            Instruction::Own(function, arguments) => self.tables.value(function, arguments.map(at)).unwrap_or(f64::NAN),
         };
         [value, 0.0]
     }

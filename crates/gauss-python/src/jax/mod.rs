@@ -10,14 +10,19 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyCapsule, PyDict, PyList};
 
-use crate::call;
+use crate::call::{self, Fault};
 use crate::class::Kernel;
-use crate::kernels::AnyKernel;
+use crate::description::{Field, Shape};
+use crate::kernels::{AnyKernel, AnyScene};
 use crate::memory::{Source, Target};
 use crate::methods::{Id, SPECS, Work};
+use crate::own::OwnParameter;
 use crate::steps::off_group_words;
 use crate::tuples;
 use abi::{Buffer, F32, F64, Frame};
+
+/// Fields that a mask of parameters has bits for, with a sign that stays free.
+const MOST_FIELDS: usize = 62;
 
 /// Kernels of which JAX was given functions: compiled programs name them by their place here, and nobody tells when the
 /// last such program is gone.
@@ -67,7 +72,28 @@ fn read(buffer: &Buffer, size: usize, count: usize, kept: &mut Vec<Vec<f64>>) ->
     Ok(source)
 }
 
-/// One call of XLA: time, arguments and results in the order of the method's words.
+/// The fields of a scene whose bits are in a mask.
+fn fields_in(scene: &dyn AnyScene, mask: usize) -> impl Iterator<Item = usize> {
+    (0..scene.description().fields.len().min(MOST_FIELDS)).filter(move |number| mask >> number & 1 == 1)
+}
+
+/// Parameters that rows have for themselves: those whose bits are in the attribute `own`, each an array of rows.
+fn own(scene: &dyn AnyScene, mask: usize, buffers: &[&Buffer], count: usize) -> Result<Vec<OwnParameter>, String> {
+    let of_field = |(number, buffer): (usize, &&Buffer)| {
+        let size = scene.description().fields[number].shape.size();
+        let (mut kept, mut numbers) = (Vec::new(), vec![0.0; count * size]);
+        let source = read(buffer, size, count, &mut kept)?;
+        // SAFETY: rows of so many numbers, alive over the call.
+        #[allow(unsafe_code)]
+        unsafe {
+            source.copy(0..count, size, &mut numbers);
+        }
+        Ok(OwnParameter::of_rows(scene, number, numbers, count))
+    };
+    fields_in(scene, mask).zip(buffers).map(of_field).collect()
+}
+
+/// One call of XLA: time, arguments, parameters of rows, and results in the order of the method's words.
 fn compute(frame: &Frame) -> Result<(), String> {
     let number = |name| frame.attribute(name);
     let (place, method, name) = (number("kernel")?, number("method")?, number("frame")?);
@@ -78,50 +104,68 @@ fn compute(frame: &Frame) -> Result<(), String> {
         return Err(format!("the kernel has no {}", spec.name));
     }
     let (arguments, results) = (frame.arguments(), frame.results());
-    let own = spec.arguments.iter().filter(|argument| scene.sizes().get(argument.size) > 0);
+    let mask = number("own")?;
+    let named = spec.arguments.iter().filter(|argument| scene.sizes().get(argument.size) > 0);
+    let (wanted, parameters) = (named.clone().count(), fields_in(scene, mask).count());
     let (Some((time, others)), true) = (arguments.split_first(), results.len() == spec.results.len()) else {
         return Err("the call has not the arrays of the method".to_owned());
     };
-    if others.len() != own.clone().count() {
-        return Err(format!("{} has {} arrays besides time", spec.name, own.count()));
+    if others.len() != wanted + parameters {
+        return Err(format!("{} has {} arrays besides time", spec.name, wanted + parameters));
     }
+    let (others, of_rows) = others.split_at(wanted);
     let count = time.axes().iter().product();
     let (mut kept, mut wide) = (Vec::new(), Vec::new());
     let mut work = Work { t: read(time, 1, count, &mut kept)?, frame: name, ..Work::NONE };
-    for (argument, buffer) in own.zip(others) {
+    let own = own(scene, mask, of_rows, count)?;
+    for (argument, buffer) in named.zip(others) {
         work.arguments[argument.slot as usize] = read(buffer, scene.sizes().get(argument.size), count, &mut kept)?;
     }
     for (k, (result, buffer)) in spec.results.iter().zip(&results).enumerate() {
         let size: usize = result.axes.iter().map(|axis| scene.sizes().get(*axis)).product();
-        let numbers = buffer.axes().iter().product::<usize>();
-        if numbers != size * count {
-            return Err(format!("a result has {numbers} numbers; expected {count} rows of {size}"));
-        }
-        let first = match buffer.dtype {
-            F64 => buffer.data.cast::<f64>(),
-            F32 => {
-                let mut numbers = vec![0.0; numbers];
-                let first = numbers.as_mut_ptr();
-                wide.push((*buffer, numbers));
-                first
-            }
-            other => return Err(format!("results are of float64 or float32, and not of XLA's type {other}")),
-        };
-        // SAFETY: rows of so many numbers, alive over the call, which XLA lets nobody else touch.
-        #[allow(unsafe_code)]
-        let target = unsafe { Target::new(first, size) };
-        work.results[k] = target;
+        work.results[k] = written(buffer, size, count, &mut wide)?;
     }
     // SAFETY: all arrays of the method have these rows: their sizes were compared.
     #[allow(unsafe_code)]
-    let computed = unsafe { call::rows(&*kernel, id, &work, count) };
-    computed.map_err(|off| format!("row {} of q is no rotation: {}", off.row, off_group_words(off.squares)))?;
+    let computed = unsafe { call::rows_with(&*kernel, id, &work, count, &own) };
+    computed.map_err(|fault| match fault {
+        Fault::OffGroup(off) => format!("row {} of q is no rotation: {}", off.row, off_group_words(off.squares)),
+        Fault::Parameters(row, all) => {
+            let all: Vec<String> = all.into_iter().map(|one| one.message).collect();
+            format!("parameters of row {} are of no body: {}", row.unwrap_or(0), all.join("; "))
+        }
+    })?;
     round(wide);
     Ok(())
 }
 
+/// Results that are computed in 64 bits, of buffers of 32.
+type Wide<'a> = Vec<(&'a Buffer, Vec<f64>)>;
+
+/// Rows of a buffer that are written: where they are, or in 64 bits, from which they are rounded.
+fn written<'a>(buffer: &'a Buffer, size: usize, count: usize, wide: &mut Wide<'a>) -> Result<Target, String> {
+    let numbers = buffer.axes().iter().product::<usize>();
+    if numbers != size * count {
+        return Err(format!("a result has {numbers} numbers; expected {count} rows of {size}"));
+    }
+    let first = match buffer.dtype {
+        F64 => buffer.data.cast::<f64>(),
+        F32 => {
+            let mut numbers = vec![0.0; numbers];
+            let first = numbers.as_mut_ptr();
+            wide.push((buffer, numbers));
+            first
+        }
+        other => return Err(format!("results are of float64 or float32, and not of XLA's type {other}")),
+    };
+    // SAFETY: rows of so many numbers, alive over the call, which XLA lets nobody else touch.
+    #[allow(unsafe_code)]
+    let target = unsafe { Target::new(first, size) };
+    Ok(target)
+}
+
 /// Writes what was computed in 64 bits to buffers of 32.
-fn round(wide: Vec<(&Buffer, Vec<f64>)>) {
+fn round(wide: Wide<'_>) {
     for (buffer, numbers) in wide {
         let first = buffer.data.cast::<f32>();
         for (k, number) in numbers.into_iter().enumerate() {
@@ -163,9 +207,27 @@ pub fn functions<'py>(module: &str, kernel: &Bound<'py, PyAny>) -> PyResult<Boun
     how.set_item("number", place(&shared)?)?;
     how.set_item("specs", specs(py, &*shared)?)?;
     let sizes = shared.scene().sizes();
+    how.set_item("parameters", parameters(&*shared))?;
+    how.set_item("columns", columns(&*shared))?;
     how.set_item("increment", sizes.increment)?;
     how.set_item("flat", shared.scene().description().coordinates.iter().all(|part| part.unit == 0))?;
     door.getattr("make")?.call((), Some(&how))
+}
+
+/// The parameters that rows may have for themselves: number of the field, name, axes.
+fn parameters(kernel: &dyn AnyKernel) -> Vec<(usize, &'static str, Vec<usize>)> {
+    let fields = kernel.scene().description().fields.iter().enumerate().take(MOST_FIELDS);
+    let of_field = |(number, field): (usize, &Field)| match field.shape {
+        Shape::Array(axes) if field.shape.size() > 0 => Some((number, field.name, axes.to_vec())),
+        _ => None,
+    };
+    fields.filter_map(of_field).collect()
+}
+
+/// Of each column of `by_parameters` the number of its field, and its place there.
+fn columns(kernel: &dyn AnyKernel) -> Vec<Option<(usize, usize)>> {
+    let scene = kernel.scene();
+    scene.parameters().iter().map(|name| scene.description().place_of(name)).collect()
 }
 
 fn c_text(text: &str) -> PyResult<std::ffi::CString> {

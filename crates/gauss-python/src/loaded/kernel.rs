@@ -50,6 +50,10 @@ impl AnyScene for LoadedScene {
         &self.joints
     }
 
+    fn parameters(&self) -> &[&'static str] {
+        &self.parameters
+    }
+
     fn contacts(&self) -> &[Contact] {
         self.model.contacts()
     }
@@ -87,6 +91,10 @@ impl AnyKernel for LoadedKernel {
 
     fn numbers(&self) -> &[f64] {
         &self.numbers
+    }
+
+    fn with(&self, numbers: Vec<f64>) -> Result<Box<dyn AnyKernel>, Vec<Violation>> {
+        Arc::clone(&self.scene).kernel(numbers)
     }
 
     fn warnings(&self) -> Vec<String> {

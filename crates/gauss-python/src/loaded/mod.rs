@@ -33,6 +33,12 @@ pub fn attributes<'py>(py: Python<'py>, model: &gauss_jit::Model) -> PyResult<Bo
     crate::make::attributes(py, &(Arc::new(LoadedScene::new(model.clone())) as Arc<dyn AnyScene>))
 }
 
+/// An exception for parameters or arrays of tables that cannot be: of each the name, and what is wrong with it.
+#[must_use]
+pub fn parameter_error(py: Python<'_>, message: String, fields: Vec<(String, String)>) -> PyErr {
+    crate::errors::new(py, "ParameterError", message, ("fields", fields))
+}
+
 /// The text of the stubs of a module whose classes come at run time.
 #[must_use]
 pub fn stubs() -> String {

@@ -19,6 +19,8 @@ enum Plan {
     Reaction,
     /// Both energies.
     Energy,
+    /// The first rows of the centroidal matrix over the mass.
+    CenterJacobian,
     /// Rates of components, by a program for the velocity, then accelerations.
     Rates(String),
     /// 1 everywhere: a model without a singular place.
@@ -60,6 +62,7 @@ fn plan(model: &Model, id: Id, frames: &[&'static str], joints: &[&'static str])
         Id::Difference => return Some(Plan::Difference),
         Id::Tangent => return Some(Plan::Tangent),
         Id::Energy => return Some(Plan::Energy),
+        Id::CenterJacobian => return has("centroidal_matrix").then_some(Plan::CenterJacobian),
         Id::Rates => return Some(Plan::Rates(velocity())),
         Id::Regularity if !has("regularity") => return Some(Plan::Regular),
         Id::NonlinearEffects if !has("nonlinear_effects") => return Some(Plan::Nonlinear),
@@ -154,6 +157,7 @@ fn compute(
             results[0] += potential[0];
             Ok(())
         }
+        Plan::CenterJacobian => center_jacobian(kernel, &[t, q], results),
         Plan::Rates(velocity) => {
             let mut own = vec![0.0; sizes.increment];
             let arguments = [t, q, z, u];
@@ -171,6 +175,14 @@ fn compute(
         Plan::Difference => kernel.difference(q, x, results),
         Plan::Tangent => kernel.tangent(q, x, results),
     }
+}
+
+fn center_jacobian(kernel: &Kernel, arguments: &[&[f64]; 2], results: &mut [f64]) -> Result<(), CallError> {
+    let mut mass = [0.0];
+    kernel.method("total_mass")?.call(arguments, &mut mass)?;
+    let matrix = kernel.call("centroidal_matrix", arguments)?;
+    results.iter_mut().zip(matrix).for_each(|(number, momentum)| *number = momentum / mass[0]);
+    Ok(())
 }
 
 impl Plans {

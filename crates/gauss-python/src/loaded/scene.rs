@@ -15,6 +15,7 @@ pub struct LoadedScene {
     pub(super) names: [Vec<&'static str>; 2],
     pub(super) frames: Vec<&'static str>,
     pub(super) joints: Vec<&'static str>,
+    pub(super) parameters: Vec<&'static str>,
     pub(super) plans: Plans,
 }
 
@@ -64,6 +65,8 @@ impl LoadedScene {
             own.coordinates.iter().cloned().partition(|own| own.numbers.len() == 1);
         let names = [numbers(&[groups, scalars].concat()), numbers(&own.speeds)];
         let (frames, joints) = (all(&own.frames), all(&own.joints));
+        let has_parameters = model.methods().any(|name| name == "by_parameters");
+        let parameters = if has_parameters { all(model.parameter_names()) } else { Vec::new() };
         let count = |method: &str| {
             let results = model.results(method).unwrap_or_default();
             results.iter().map(|result| result.rows * result.columns).sum()
@@ -74,9 +77,10 @@ impl LoadedScene {
             speeds: names[1].len(),
             input: description.input_size(),
             multipliers: count("multipliers"),
+            parameters: parameters.len(),
         };
         let plans = Plans::of(&model, &frames, &joints);
-        Self { model, description, sizes, names, frames, joints, plans }
+        Self { model, description, sizes, names, frames, joints, parameters, plans }
     }
 
     /// The kernel with these numbers of all fields.

@@ -73,6 +73,19 @@ impl<S: System> Table<S> {
         });
     }
 
+    /// Derivatives by the parameters.
+    pub fn by_parameters(&mut self)
+    where
+        S: ParametricSystem,
+    {
+        self.parameters = S::PARAMETERS;
+        self.add(Id::ByParameters, |s, at, out| {
+            let found = s.by_parameters(at.t(), &at.q(), &at.z(), &at.input());
+            let size = <<S::Linearization as LinearModel<S::Scalar>>::Vector as VectorSpace<S::Scalar>>::DIM;
+            out.matrix([size, S::PARAMETERS.len()], |i, j| found[(i, j)]);
+        });
+    }
+
     /// Derivatives of inverse dynamics.
     pub fn linearize_inverse(&mut self)
     where

@@ -24,18 +24,21 @@ pub struct Sizes {
     pub input: usize,
     /// Multipliers; 0 without constraints.
     pub multipliers: usize,
+    /// Numbers of parameters that there are derivatives by; 0 without the clause for them.
+    pub parameters: usize,
 }
 
 impl Sizes {
     /// The sizes of a system.
     #[must_use]
-    pub fn of<S: System>(multipliers: usize) -> Self {
+    pub fn of<S: System>(multipliers: usize, parameters: usize) -> Self {
         Self {
             configuration: <<S::Configuration as Configuration>::Components as VectorSpace<S::Scalar>>::DIM,
             increment: <<S::Configuration as Configuration>::Tangent as VectorSpace<S::Scalar>>::DIM,
             speeds: S::DOF,
             input: <S::Input as VectorSpace<S::Scalar>>::DIM,
             multipliers,
+            parameters,
         }
     }
 
@@ -50,6 +53,7 @@ impl Sizes {
             Size::State => self.increment + self.speeds,
             Size::Flat => self.configuration + self.speeds,
             Size::Multipliers => self.multipliers,
+            Size::Parameters => self.parameters,
             Size::Exactly(count) => count,
         }
     }
@@ -262,6 +266,8 @@ pub struct Table<S> {
     loops: [Option<Loop<S>>; COUNT],
     /// Number of multipliers.
     pub multipliers: usize,
+    /// The names of the numbers of parameters that there are derivatives by.
+    pub parameters: &'static [&'static str],
     /// The names of the frames.
     pub frames: Vec<&'static str>,
     /// The names of the joints whose reactions are methods.
@@ -272,8 +278,8 @@ impl<S: System> Table<S> {
     /// The table of the methods that every kernel has.
     #[must_use]
     pub fn new() -> Self {
-        let mut table =
-            Self { loops: std::array::from_fn(|_| None), multipliers: 0, frames: Vec::new(), joints: Vec::new() };
+        let (loops, frames, joints) = (std::array::from_fn(|_| None), Vec::new(), Vec::new());
+        let mut table = Self { loops, multipliers: 0, parameters: &[], frames, joints };
         table.motion();
         table.energies();
         table
@@ -358,8 +364,8 @@ mod tests {
     fn numbers_of_methods_are_places_in_the_list() {
         assert_eq!(SPECS[Id::Hessian as usize].name, "hessian");
         assert_eq!(SPECS[Id::CenterJacobian as usize].name, "center_jacobian");
-        assert_eq!(SPECS[Id::Tangent as usize].name, "tangent");
-        assert_eq!(Id::Tangent as usize + 1, COUNT);
+        assert_eq!(SPECS[Id::ByParameters as usize].name, "by_parameters");
+        assert_eq!(Id::ByParameters as usize + 1, COUNT);
         assert!(SPECS.iter().all(|spec| spec.results.len() <= MOST_RESULTS));
     }
 }

@@ -35,6 +35,7 @@ pub enum Id {
     CenterJacobian,
     Reaction,
     Tangent,
+    ByParameters,
 }
 
 impl Id {
@@ -71,6 +72,7 @@ impl Id {
         Self::CenterJacobian,
         Self::Reaction,
         Self::Tangent,
+        Self::ByParameters,
     ];
 }
 
@@ -107,6 +109,8 @@ pub enum Size {
     Flat,
     /// Multipliers.
     Multipliers,
+    /// Numbers of parameters that there are derivatives by.
+    Parameters,
     /// So many.
     Exactly(usize),
 }
@@ -203,7 +207,7 @@ impl Spec {
 }
 
 /// All methods, in the order of [`Id`].
-pub const SPECS: [Spec; 31] = [
+pub const SPECS: [Spec; 32] = [
     spec("acceleration", &[Q, Z, U], SPEEDS, "The rates of the speeds."),
     spec(
         "inverse_dynamics",
@@ -309,4 +313,11 @@ pub const SPECS: [Spec; 31] = [
         &[one(&[Size::Increment])],
         "The increment seen from the body that changes the numbers of q by so much, to first order.",
     ),
+    spec(
+        "by_parameters",
+        &[Q, Z, U],
+        &[one(&[Size::State, Size::Parameters])],
+        "Derivatives of velocity and acceleration by `parameter_names`.",
+    )
+    .by("linearize(parameters)"),
 ];
