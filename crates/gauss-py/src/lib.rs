@@ -4,6 +4,7 @@
 
 mod errors;
 mod fmu;
+mod lie;
 mod model;
 mod programs;
 
@@ -20,6 +21,8 @@ fn native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     gauss_python::loaded::begin(module)?;
     module.add_function(wrap_pyfunction!(stubs, module)?)?;
     module.add_function(wrap_pyfunction!(fmu::write_fmu, module)?)?;
+    module.add_function(wrap_pyfunction!(lie::exp6, module)?)?;
+    module.add_function(wrap_pyfunction!(lie::log6, module)?)?;
     module.add_class::<model::Model>()?;
     module.add_class::<programs::Programs>()
 }

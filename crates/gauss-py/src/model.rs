@@ -1,6 +1,7 @@
 //! A model: a scene with its equations.
 
-use gauss_jit::{Cache, Notation};
+use gauss_jit::{Array, Cache, Notation};
+use numpy::{PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -49,6 +50,14 @@ impl Model {
         derived.map(|model| Self { model }).map_err(|mistakes| errors::scene(py, &mistakes))
     }
 
+    /// The same model with the numbers of its tables: arrays in C order by the names of their constants.
+    fn with_tables(&self, py: Python<'_>, arrays: Vec<(String, PyReadonlyArrayDyn<'_, f64>)>) -> PyResult<Self> {
+        let own = arrays.iter().map(|(name, array)| Ok((name.as_str(), array.shape(), array.as_slice()?)));
+        let own: Vec<Array<'_>> = own.collect::<PyResult<_>>()?;
+        let made = self.model.with_tables(&own);
+        made.map(|model| Self { model }).map_err(|mistakes| errors::tables(py, self.model.name(), &mistakes))
+    }
+
     #[getter]
     fn name(&self) -> &str {
         self.model.name()
@@ -79,6 +88,12 @@ impl Model {
     fn parameters(&self) -> Vec<(String, usize, Option<String>, String)> {
         let list = self.model.parameters().iter();
         list.map(|own| (own.name.clone(), own.count, own.unit.clone(), own.documentation.clone())).collect()
+    }
+
+    /// The axes of each parameter by its name: none of a number.
+    #[getter]
+    fn axes(&self) -> Vec<(String, Vec<usize>)> {
+        self.model.parameters().iter().map(|own| (own.name.clone(), own.axes.clone())).collect()
     }
 
     #[getter]
@@ -119,7 +134,7 @@ impl Model {
     /// The programs with numbers of the parameters by name, which a kernel of the class has checked.
     fn programs(&self, py: Python<'_>, parameters: Vec<(String, Vec<f64>)>) -> PyResult<Programs> {
         let list: Vec<(&str, &[f64])> = parameters.iter().map(|(name, own)| (&name[..], &own[..])).collect();
-        let made = py.detach(|| self.model.kernel(&list));
-        made.map(Programs::new).map_err(|error| PyValueError::new_err(error.to_string()))
+        let made = py.detach(|| self.model.kernel(&list)).map_err(|error| PyValueError::new_err(error.to_string()));
+        made.map(|kernel| Programs::new(kernel, parameters))
     }
 }

@@ -174,7 +174,7 @@ def test_arguments_of_other_shapes(pendulum, arm):
         pendulum.regressor
     with pytest.raises(TypeError, match="no frames: its struct does not say"):
         pendulum.pose("bob", [0])
-    with pytest.raises(TypeError, match="unexpected keyword argument 'u'"):
+    with pytest.raises(TypeError, match="acceleration has no argument u, and Robot no parameter of that name"):
         arm.acceleration([0, 0], [0, 0], u=[0, 0])
     # As of compiled classes.
     assert np.isnan(pendulum.acceleration([np.nan], [0])).all() and np.isnan(pendulum.acceleration([np.inf], [0])).all()
@@ -319,3 +319,28 @@ def test_kernels_never_change(pendulum):
         pendulum.m = 3
     with pytest.raises(AttributeError):
         pendulum.acceleration = None
+
+
+def test_programs_have_parameters_of_rows():
+    scene = "#[gauss(coordinates(x, y), particle(mass = m, position = [x, y, 0]), potential = k[0] * x + k[1] * y)]"
+    model = gauss.scene(scene + " struct Mass { m: f64, k: Vector3<f64> }")
+    mass = model(m=2.0, k=[1.0, 2.0, 3.0])
+    q, z = np.random.default_rng(5).normal(size=(2, 40, 2))
+    k = np.random.default_rng(6).normal(size=(40, 3))
+    # The forces of the elements of one row after another, as kernels of their own have them.
+    alone = np.array([model(m=2.0, k=own).element_forces(*row) for own, *row in zip(k, q, z)])
+    assert np.array_equal(mass.element_forces(q, z, k=k), alone)
+    assert np.array_equal(mass.element_forces(q, z, k=k, threads=3), alone)
+    several = [model(m=2.0, k=own).element_forces(q[0], z[0]) for own in k[:5]]
+    assert np.array_equal(mass.element_forces(q[0], z[0], k=k[:5]), several)
+    assert np.array_equal(mass.element_forces(q, z, k=k[0]), model(m=2.0, k=k[0]).element_forces(q, z))
+    assert not np.array_equal(mass.element_forces(q, z), alone)
+    with pytest.raises(ValueError, match=r"k has shape \(40, 2\); expected \(..., 3\)"):
+        mass.element_forces(q, z, k=k[:, :2])
+    with pytest.raises(ValueError, match=r"leading axes differ: \(40,\) of z, \(39,\) of m"):
+        mass.element_forces(q, z, m=np.ones(39))
+    with pytest.raises(gauss.ParameterError, match=r"m.*, in row 1$") as raised:
+        mass.element_forces(q[:3], z[:3], m=[1.0, -1.0, 1.0])
+    assert [name for name, _ in raised.value.fields] == ["m"]
+    with pytest.raises(TypeError, match="`l` is none of them"):
+        mass.element_forces(q, z, l=1.0)

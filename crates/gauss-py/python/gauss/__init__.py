@@ -4,7 +4,8 @@
 """
 
 from ._errors import Mistake, SceneError
-from ._model import Field, Kernel, Model, load, scene
+from ._lie import adjoint, exp6, log6, turned
+from ._model import Field, Kernel, Limit, Model, load, scene
 from ._native import ContactError, Ends, IntegrationError, ParameterError, Run, jax
 
 __version__ = "0.1.0"
@@ -14,12 +15,17 @@ __all__ = [
     "Field",
     "IntegrationError",
     "Kernel",
+    "Limit",
     "Mistake",
     "Model",
     "ParameterError",
     "Run",
     "SceneError",
+    "adjoint",
+    "exp6",
     "jax",
     "load",
+    "log6",
     "scene",
+    "turned",
 ]

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from os import PathLike
 from typing import Any, NamedTuple
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
@@ -28,6 +29,13 @@ class SceneError(ValueError):
     mistakes: list[Mistake]
     source: str
     def __init__(self, mistakes: Iterable[tuple[int, int, str]], source: str) -> None: ...
+
+class Limit(NamedTuple):
+    """The limits of a joint, each infinite where the file has none."""
+    lower: float
+    upper: float
+    velocity: float
+    effort: float
 
 @dataclass(frozen=True)
 class Field:
@@ -56,6 +64,9 @@ class Model:
     def accuracy(self) -> dict[str, tuple[float, float]]:
         """The rounding error of each method at the worst state that a search found, and the median."""
     @property
+    def tables(self) -> dict[str, np.ndarray]:
+        """The arrays of its tables, by the names of their constants."""
+    @property
     def parameters(self) -> dict[str, tuple[int, str | None, str]]: ...
     def __call__(self, **parameters: ArrayLike | Mapping[str, ArrayLike]) -> Kernel: ...
 
@@ -68,6 +79,9 @@ class Kernel(_native.Kernel):
     def methods(self) -> list[str]: ...
     @property
     def remarks(self) -> list[str]: ...
+    @property
+    def limits(self) -> dict[str, Limit]:
+        """The limits of the joints of a URDF file, by the names of their coordinates."""
     def without_contacts(self) -> Kernel: ...
     def call(
         self, method: str, *arguments: ArrayLike, t: ArrayLike = 0.0, threads: int = 1, **named: ArrayLike
@@ -80,10 +94,28 @@ class Kernel(_native.Kernel):
     def __getattr__(self, name: str) -> Any:
         """Programs that are no methods of all classes: `regressor`, `powers`, those of contacts."""
 
-def scene(text: str, /, **fields: str | Field | None) -> Model:
-    """The model of a scene in words: clauses as in `#[gauss(...)]`, and its parameters as keywords."""
+def scene(
+    text: str, /, *, tables: Mapping[str, ArrayLike] | None = None, **fields: str | Field | None
+) -> Model:
+    """The model of a scene in words: clauses as in `#[gauss(...)]`, its parameters as keywords, and arrays of tables."""
 
 def load(
-    path: str | PathLike[str], clauses: str | Iterable[str] = (), *, gravity: ArrayLike | None = None
+    path: str | PathLike[str],
+    clauses: str | Iterable[str] = (),
+    *,
+    gravity: ArrayLike | None = None,
+    tables: Mapping[str, ArrayLike] | None = None,
 ) -> Kernel:
     """The robot of a URDF or MJCF file as a kernel, with clauses as of structs."""
+
+def exp6(increment: ArrayLike) -> np.ndarray:
+    """The motion (..., 4, 4) to which a body comes within a second at a twist (..., 6) in its own axes."""
+
+def log6(pose: ArrayLike) -> np.ndarray:
+    """The twist (..., 6) by which a body comes to a motion (..., 4, 4) within a second."""
+
+def turned(pose: ArrayLike) -> np.ndarray:
+    """The matrix (..., 6, 6) that turns twists and Jacobians from axes of a frame to the observer's."""
+
+def adjoint(pose: ArrayLike) -> np.ndarray:
+    """The same, with the pole moved to the observer's origin."""

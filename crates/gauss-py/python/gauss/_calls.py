@@ -76,26 +76,29 @@ class Plan:
                 values[name] = np.zeros(0)
         return values
 
-    def call(self, native, given, named, t, threads):
-        """Calls the method for a state, or for a batch of them."""
+    def call(self, native, given, named, t, threads, own):
+        """Calls the method for a state, or for a batch of them; `own` has parameters of rows with their axes."""
         threads = int(threads)
         if threads < 1:
             raise ValueError(f"threads is {threads}; expected one or more")
         values = self.arguments(given, named)
-        arrays = [numbers("t", t)[..., None]]
-        arrays += [numbers(name, values[name]) for name in self.sizes]
-        batch, of = (), ""
-        for (name, size), array in zip([("t", 1), *self.sizes.items()], arrays):
-            if array.ndim == 0 or array.shape[-1] != size:
-                raise ValueError(f"{name} has shape {array.shape}; expected (..., {size})")
-            leading = array.shape[:-1]
+        wanted = [("t", (), t), *((name, (size,), values[name]) for name, size in self.sizes.items())]
+        wanted += [(name, axes, value) for name, (axes, value) in own.items()]
+        batch, of, arrays = (), "", []
+        for name, axes, value in wanted:
+            array = numbers(name, value)
+            leading = array.shape[: max(0, array.ndim - len(axes))]
+            if leading + axes != array.shape:
+                raise ValueError(f"{name} has shape {array.shape}; expected (...{''.join(f', {own}' for own in axes)})")
             if leading and batch and leading != batch:
                 raise ValueError(f"leading axes differ: {batch} of {of}, {leading} of {name}")
             if leading:
                 batch, of = leading, name
+            arrays.append((array, leading, math.prod(axes)))
         rows = math.prod(batch)
-        flat = [array.reshape(rows if array.ndim > 1 else 1, array.shape[-1]) for array in arrays]
-        computed = native.call(self.name, flat, rows, threads)
+        flat = [array.reshape(rows if leading else 1, size) for array, leading, size in arrays]
+        count = len(flat) - len(own)
+        computed = native.call(self.name, flat[:count], rows, threads, list(zip(own, flat[count:])))
         if len(self.shapes) == 1:
             return computed.reshape(batch + self.shapes[0])
         computed = computed.reshape(rows, self.ends[-1])

@@ -1,11 +1,13 @@
 """Models and kernels: scenes and robots that are derived and compiled at run time."""
 
 import os
+import re
 import tempfile
 import weakref
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import NamedTuple
 from xml.etree import ElementTree
 
 import numpy as np
@@ -17,6 +19,16 @@ from ._native import ContactError
 
 #: Methods about contacts themselves; all others with an input lack their forces.
 OF_CONTACTS = {"friction", "impulse_dynamics", "element_forces", "powers", "supplied_power"}
+
+
+class Limit(NamedTuple):
+    """The limits of a joint, each infinite where the file has none: of its coordinate (rad, m), of its speed and of its
+    effort (N m, N)."""
+
+    lower: float
+    upper: float
+    velocity: float
+    effort: float
 
 
 @dataclass(frozen=True)
@@ -50,6 +62,7 @@ class Model:
         self._native_model, self._recipe = native, recipe
         own = {"model": self, "__module__": Kernel.__module__}
         self._class = type(native.name, (Kernel,), native.attributes() | own)
+        self._axes = {name: tuple(axes) for name, axes in native.axes}
 
     @property
     def name(self):
@@ -79,6 +92,11 @@ class Model:
     @property
     def accuracy(self):
         return {name: tuple(lost) for name, lost in self._native_model.accuracy}
+
+    @property
+    def tables(self):
+        """The arrays of its tables, by the names of their constants."""
+        return {name: np.frombuffer(own).reshape(shape) for name, shape, own in self._recipe[1]}
 
     @property
     def parameters(self):
@@ -129,6 +147,21 @@ class Kernel(_native.Kernel):
         return self.model.remarks
 
     @cached_property
+    def limits(self):
+        """The `Limit` of each joint of a URDF file, by the name of its coordinate. They act where a clause says so."""
+        kind, *_, files = self.model._recipe
+        if kind != "file" or self.model._recipe[2] != "urdf":
+            raise ValueError(f"limits are read from URDF files, and {self.name} is of none")
+        called = dict(re.findall("the joint `(.*?)` is called `(.*?)`", "\n".join(self.remarks)))
+        known = {}
+        for joint in ElementTree.fromstring(files[0][1]).iter("joint"):
+            # Joints of transmissions have no type.
+            name, limit = joint.get("name"), joint.find("limit")
+            if joint.get("type") and name is not None:
+                known[called.get(name, name)] = _limit(joint.get("type"), {} if limit is None else limit.attrib)
+        return {name: known[name] for name in self.coordinate_names if name in known}
+
+    @cached_property
     def _programs(self):
         return self.model._native_model.programs(list(_flat(self.parameters).items()))
 
@@ -145,14 +178,17 @@ class Kernel(_native.Kernel):
         return plan
 
     def call(self, method, *arguments, t=0.0, threads=1, **named):
-        """Calls a program by its name; `threads` share the rows of a batch."""
+        """Calls a program by its name; `threads` share the rows of a batch. Parameters are keywords in place of those of
+        the kernel, one for all rows or one for each."""
         plan = self._plan(method)
         if "input" in plan.sizes and method not in OF_CONTACTS and self._touches:
             raise ContactError(
                 f"{method} has no forces of contacts, and the scene has {', '.join(self.contact_names)}; with "
                 f"`kernel.without_contacts().{method}` all gaps are open, and nothing rubs"
             )
-        return plan.call(self._programs, arguments, named, t, threads)
+        axes = self.model._axes
+        own = {name: (axes[name], named.pop(name)) for name in axes if name in named and name not in plan.sizes}
+        return plan.call(self._programs, arguments, named, t, threads, own)
 
     def fmu(self, path, *, start=None, fmi=2):
         """Writes the kernel as an FMU, of FMI 2.0 or 3.0: source code, and a binary where there is a C compiler.
@@ -191,6 +227,15 @@ class Kernel(_native.Kernel):
         return (_kernel, (self.model, make.keywords)) if type(self) is self.model._class else (make, nothing)
 
 
+def _limit(kind, given):
+    def number(name, without):
+        return float(given[name]) if name in given else without
+
+    # Of a limit without numbers they are zero in URDF; a joint that turns on and on has no ends.
+    ends = (-np.inf, np.inf) if kind == "continuous" else (number("lower", 0.0), number("upper", 0.0))
+    return Limit(*ends, number("velocity", np.inf), number("effort", np.inf))
+
+
 def _kernel(model, parameters):
     return model(**parameters)
 
@@ -204,26 +249,43 @@ def _flat(given):
     return flat
 
 
-def scene(text, /, **fields):
+def scene(text, /, *, tables=None, **fields):
     """The model of a scene in words: clauses as in `#[gauss(...)]`, and its parameters as keywords, each with its unit
     (None where it has none) or a `Field`; or a text with the struct itself, and no keywords.
 
-    Raises `SceneError` with all mistakes.
+    `tables` has an array for each constant that a clause `table(...)` names, by that name: {"POWER": points} of
+    `table(power, points = POWER)`. Points have the shape (n, 2), each of the `axes` the shape (n,), and `values` an axis
+    for each of these; units are those of the law that the table stands in.
+
+    Raises `SceneError` with all mistakes of the text, then `ParameterError` with all of the arrays.
     """
+    tables = _arrays(tables)
     if "struct" in text.split():
         if fields:
             raise TypeError("a text with a struct has its parameters in it; remove the keywords")
-        return _restored(("text", text, 0, ()))
+        return _restored(("text", tables, text, 0, ()))
     lines = [(own if isinstance(own, Field) else Field(own)).line(name) for name, own in fields.items()]
     source = "\n".join(["#[gauss(", text, ")]", "struct Scene {", *lines, "}", ""])
-    return _restored(("text", source, 1, ()))
+    return _restored(("text", tables, source, 1, ()))
 
 
-def load(path, clauses=(), *, gravity=None):
+def _arrays(tables):
+    """Arrays of tables as what can be compared and pickled: name, shape and bytes of each."""
+    arrays = [(str(name), numbers(f"tables[{name!r}]", own)) for name, own in (tables or {}).items()]
+    return tuple((name, own.shape, own.tobytes()) for name, own in arrays)
+
+
+def _with_tables(native, tables):
+    # Each of a copy, which is aligned.
+    return native.with_tables([(name, np.frombuffer(own).reshape(shape).copy()) for name, shape, own in tables])
+
+
+def load(path, clauses=(), *, gravity=None, tables=None):
     """The robot of a URDF or MJCF file as a kernel, with clauses as of structs: "linearize", "base = floating".
 
     `gravity` is a number, along -z, in m/s², or three. A URDF file says none, so it must be given (0 is none); an MJCF
-    file has its own. Raises `SceneError` with all mistakes, OSError where no file can be read.
+    file has its own. `tables` are those of clauses, as of `scene`. Raises `SceneError` with all mistakes,
+    `ParameterError` with all of the arrays of tables, OSError where no file can be read.
     """
     clauses = [clauses] if isinstance(clauses, str) else list(clauses)
     path = Path(path)
@@ -232,7 +294,7 @@ def load(path, clauses=(), *, gravity=None):
         clauses.append(f"gravity = {_written(gravity)}")
     elif format == "urdf" and not any(clause.replace(" ", "").startswith("gravity=") for clause in clauses):
         raise TypeError("a URDF file says nothing of gravity: give gravity=9.81, or gravity=0 for none")
-    return _of_file(format, path, tuple(clauses))()
+    return _of_file(format, path, tuple(clauses), _arrays(tables))()
 
 
 def _written(gravity):
@@ -255,10 +317,10 @@ def _format(path):
     return known[root.tag]
 
 
-def _of_file(format, path, clauses):
-    native = _native.Model.of_file(format, str(path), list(clauses))
+def _of_file(format, path, clauses, tables):
+    native = _with_tables(_native.Model.of_file(format, str(path), list(clauses)), tables)
     files = tuple((own, Path(own).read_bytes()) for own in native.files)
-    return _model(native, ("file", format, clauses, files))
+    return _model(native, ("file", tables, format, clauses, files))
 
 
 #: Models that are in use, by their recipes: a scene that comes again is the same.
@@ -277,7 +339,7 @@ def _restored(recipe):
     if recipe in _MODELS:
         return _MODELS[recipe]
     if recipe[0] == "text":
-        _, source, offset, files = recipe
+        _, tables, source, offset, files = recipe
         changed = [own for own, content in files if not _is(own, content)]
         if changed:
             raise OSError(f"the scene reads {', '.join(changed)}, which is not as it was")
@@ -288,12 +350,12 @@ def _restored(recipe):
             lines = [(max(1, line - offset), column, message) for line, column, message in error.mistakes]
             raise SceneError(lines, "\n".join(source.split("\n")[offset:])) from None
         files = tuple((own, Path(own).read_bytes()) for own in native.files)
-        return _model(native, ("text", source, offset, files))
-    _, format, clauses, files = recipe
+        return _model(_with_tables(native, tables), ("text", tables, source, offset, files))
+    _, tables, format, clauses, files = recipe
     first = files[0][0]
     if all(_is(own, content) for own, content in files):
         native = _native.Model.of_file(format, first, list(clauses))
-        return _model(native, recipe)
+        return _model(_with_tables(native, tables), recipe)
     common = os.path.commonpath([os.path.dirname(own) for own, _ in files])
     with tempfile.TemporaryDirectory() as folder:
         for own, content in files:
@@ -301,7 +363,7 @@ def _restored(recipe):
             place.parent.mkdir(parents=True, exist_ok=True)
             place.write_bytes(content)
         native = _native.Model.of_file(format, str(Path(folder, os.path.relpath(first, common))), list(clauses), False)
-    return _model(native, recipe)
+    return _model(_with_tables(native, tables), recipe)
 
 
 def _text(recipe):
@@ -311,8 +373,8 @@ def _text(recipe):
     if changed:
         raise OSError(f"the scene reads {', '.join(changed)}, which is not as it was")
     if recipe[0] == "text":
-        return recipe[1]
-    _, format, clauses, _ = recipe
+        return recipe[2]
+    _, _, format, clauses, _ = recipe
     path = files[0][0].replace("\\", "\\\\").replace('"', '\\"')
     lines = [f'#[gauss({format} = "{path}",', *(f"{clause}," for clause in clauses), ")]", "struct Robot;", ""]
     return "\n".join(lines)

@@ -1,6 +1,7 @@
 """Rigid-body dynamics, generated. Stubs written by `stubs()` of the module."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from os import PathLike
 from typing import Any, Literal, NamedTuple, overload
 
 import numpy as np
@@ -69,6 +70,20 @@ class Run:
     @property
     def rejected(self) -> int: ...
     def plot(self, *names: str | Sequence[str]) -> Any: ...
+    def page(
+        self,
+        path: str | PathLike[str] | None = None,
+        kernel: Kernel | None = None,
+        *,
+        title: str | None = None,
+        rods: Iterable[tuple[str, str] | tuple[str, str, float]] | None = None,
+        traces: Iterable[str | tuple[str, Sequence[float]]] | None = None,
+        urdf: str | PathLike[str] | None = None,
+        up: Sequence[float] | None = None,
+        follow: str | None = None,
+        si: bool = True,
+    ) -> str | None:
+        """The run as a page that any browser plays: curves, and the frames of a kernel; its text without a path."""
     @overload
     def __getitem__(self, key: str) -> Array: ...
     @overload
@@ -135,6 +150,8 @@ def stubs() -> str:
 
 class Kernel:
     """A kernel: parameters checked, constants computed once. It never changes, so that threads may share it."""
+    @property
+    def parameter_names(self) -> list[str]: ...
     @property
     def parameters(self) -> dict[str, Any]: ...
     @property
@@ -217,128 +234,132 @@ class Kernel:
         scheme: Scheme | None = None,
         progress: Callable[[float], object] | bool | None = None,
     ) -> Ends: ...
-    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The rates of the speeds.
         """
         ...
-    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
         """
         ...
-    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Inverse dynamics at acceleration zero.
         """
         ...
-    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Second derivatives of the kinetic energy by z.
         """
         ...
-    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The velocity of the configuration, seen from the body.
         """
         ...
-    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Rates of the numbers of q, then those of z, for any solver.
         """
         ...
-    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Derivatives of the kinetic energy by z.
         """
         ...
-    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The speeds with these momenta.
         """
         ...
-    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The rates of the momenta.
         """
         ...
-    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The kinetic energy, that of a fluid included.
         """
         ...
-    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The potential energy.
         """
         ...
-    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Kinetic and potential energy.
         """
         ...
-    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The distance from a singularity of the coordinates: 0 there, 1 at best.
         """
         ...
-    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The configuration moved by an increment that is seen from the body.
         """
         ...
-    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The shortest increment from q to the other.
         """
         ...
-    def linearize(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None) -> Linearize:
+    def linearize(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None, **parameters: ArrayLike) -> Linearize:
         """Velocity and acceleration with their derivatives by (increment, z), time and input.
         """
         ...
-    def linearize_inverse(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None) -> LinearizeInverse:
+    def linearize_inverse(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None, **parameters: ArrayLike) -> LinearizeInverse:
         """Inverse dynamics with its derivatives.
         """
         ...
-    def hessian(self, q: ArrayLike, z: ArrayLike, weights: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None) -> Hessian:
+    def hessian(self, q: ArrayLike, z: ArrayLike, weights: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None, **parameters: ArrayLike) -> Hessian:
         """Second derivatives of the weighted sum of velocity and acceleration.
         """
         ...
-    def pose(self, frame: str, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def pose(self, frame: str, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Rotation and origin of a frame as a matrix of four rows, frame to observer.
         """
         ...
-    def twist(self, frame: str, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def twist(self, frame: str, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Velocity of a frame's origin, then angular velocity, in axes of the frame.
         """
         ...
-    def jacobian(self, frame: str, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def jacobian(self, frame: str, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Derivatives of a frame's twist by z, in axes of the frame.
         """
         ...
-    def bias(self, frame: str, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def bias(self, frame: str, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Acceleration of a frame's origin, then angular, at acceleration zero; its axes.
         """
         ...
-    def jacobian_rate(self, frame: str, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def jacobian_rate(self, frame: str, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The rate of a frame's Jacobian.
         """
         ...
-    def multipliers(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def multipliers(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Lagrange multipliers.
         """
         ...
-    def gravity_torques(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def gravity_torques(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The generalised forces that balance weight and buoyancy.
         """
         ...
-    def center_of_mass(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def center_of_mass(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The centre of mass, in observer's axes.
         """
         ...
-    def centroidal_momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def centroidal_momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Momentum, then angular momentum about the centre of mass.
         """
         ...
-    def centroidal_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def centroidal_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Derivatives of the centroidal momentum by z.
         """
         ...
-    def center_jacobian(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def center_jacobian(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Derivatives of the centre's velocity.
         """
         ...
-    def reaction(self, joint: str, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def reaction(self, joint: str, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """Force, then torque about its origin, with which a joint holds what it carries, in axes of that.
         """
         ...
-    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
         """The increment seen from the body that changes the numbers of q by so much, to first order.
+        """
+        ...
+    def by_parameters(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None, **parameters: ArrayLike) -> Array:
+        """Derivatives of velocity and acceleration by `parameter_names`.
         """
         ...
 
