@@ -1,6 +1,6 @@
 //! The page holds what was asked for, where the kernel says it is.
 
-use gauss_playback::{Playback, PlaybackError, Shape};
+use gauss_playback::{Playback, PlaybackError, Recording, Shape};
 use gauss_runtime::prelude::*;
 use serde_json::Value;
 
@@ -202,4 +202,22 @@ fn a_jump_is_a_jump() -> Result<(), Box<dyn std::error::Error>> {
         assert!((speeds[after] + 0.8 * event.sample.z[0]).abs() < 1e-13);
     }
     Ok(())
+}
+
+/// Numbers of which there is not one for each time are told, all together.
+#[test]
+fn a_recording_has_a_number_for_each_time() {
+    let poses = [Isometry3::identity(), Isometry3::translation(1.0, 0.0, 0.0)];
+    let page = Recording::new("two", vec![0.0, 1.0]).body("ball", &poses, [Shape::ball(0.1)]);
+    assert!(page.curve("x / m", "x", vec![0.0, 1.0]).html().is_ok_and(|html| html.contains("\"ball\"")));
+    let wrong = Recording::new("two", vec![0.0, f64::NAN]).body("ball", &poses[..1], []).curve("x", "x", vec![1.0; 3]);
+    let told = wrong.curve("y", "y", vec![1.0, 2.0, f64::INFINITY]).html().expect_err("mistakes").to_string();
+    let expected = [
+        "a sample is at the time NaN",
+        "the pose of `ball` has 1 values at 2 times",
+        "the curve `x` has 3 values at 2 times",
+        "the curve `y` has 3 values at 2 times",
+        "the curve `y` is not finite at t = NaN",
+    ];
+    assert_eq!(told, expected.join("; "));
 }

@@ -139,8 +139,8 @@ fn rows_of<'a>(array: &'a PyReadonlyArray2<'_, f64>, rows: usize) -> PyResult<Ro
 
 #[pymethods]
 impl Programs {
-    /// The results of a method, row after row: arrays in C order with one row, or as many as there are states; `own` has
-    /// such arrays of parameters by their names.
+    /// The results of a method, row after row: arrays in C order with one row, or as many as there are states; `own`
+    /// has such arrays of parameters by their names.
     fn call<'py>(
         &self,
         py: Python<'py>,

@@ -36,8 +36,8 @@
 //! numbers in, columns out), `scene` (a struct as Python sees it), `runs` (many), `kernels` (its kernels, their types
 //! forgotten), and what Python sees: `errors`, `arrays`, `tuples`, `columns`, `own`, `call`, `parameters`, `class` with
 //! `of_kernels`, `states` and `simulation`, which knows `calls` (functions of Python in a run) and `given` (what a run
-//! is given), `run`, `page` (a run in a browser), `ends`, `stubs`, `jax` (the door to XLA), `make`. With the feature `loaded` models that come at
-//! run time are such scenes as well.
+//! is given), `run`, `page` (a run in a browser), `ends`, `stubs`, `jax` (the door to XLA), `make`. With the feature
+//! `loaded` models that come at run time are such scenes as well.
 
 #![deny(missing_docs, unsafe_code)]
 

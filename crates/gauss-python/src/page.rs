@@ -5,6 +5,7 @@ use gauss_runtime::nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3,
 use gauss_runtime::prelude::Isometry3;
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PySlice;
 
 use crate::arrays;
 use crate::call::{Given, call};
@@ -29,10 +30,20 @@ enum Trace {
     OfOrigin(String),
 }
 
-/// Poses of a frame at the times of a run.
-fn poses(py: Python<'_>, run: &Bound<'_, Run>, kernel: &Kernel, frame: usize) -> PyResult<Vec<Isometry3<f64>>> {
-    let (q, t) = (run.getattr("q")?, run.getattr("t")?);
-    let given = Given { arguments: [Some(&q), None, None, None], t: Some(&t), frame, out: None, parameters: None };
+/// The first state of which all columns are numbers: forces of steps are not known before the first one.
+fn first_known(columns: &[(&'static str, String, Vec<f64>)]) -> usize {
+    let first = |values: &[f64]| values.iter().position(|value| value.is_finite()).unwrap_or(0);
+    columns.iter().map(|(.., values)| first(values)).max().unwrap_or(0)
+}
+
+/// Poses of a frame at times, with the configuration at each.
+fn poses<'py>(
+    py: Python<'py>,
+    kernel: &Kernel,
+    frame: usize,
+    (t, q): (&Bound<'py, PyAny>, &Bound<'py, PyAny>),
+) -> PyResult<Vec<Isometry3<f64>>> {
+    let given = Given { arguments: [Some(q), None, None, None], t: Some(t), frame, out: None, parameters: None };
     let (numbers, _) = arrays::numbers("pose", &call(py, kernel.kernel(), Id::Pose, &given)?)?;
     let pose = |rows: &[f64; 16]| {
         let entry = |i: usize, j: usize| rows[4 * i + j];
@@ -52,8 +63,9 @@ impl Run {
     /// `rods` joins frames, (from, to) or (from, to, radius), as a skeleton; `traces` are paths of frames, or of points
     /// (frame, [x, y, z]) in their axes; `urdf` is a file whose boxes, cylinders and balls its links show. `up` is the
     /// direction that is up on the screen, k3 without it; `follow` the frame that the camera goes with. Axes show units
-    /// of the SI, unless `si` is False. Pictures are the states of the run: for more of them, and evenly, give `times`
-    /// to `simulate`. Raises ValueError with all that cannot be shown, OSError where nothing can be written.
+    /// of the SI, unless `si` is False. Pictures are the states of the run, from the first of which all columns are
+    /// known: for more of them, and evenly, give `times` to `simulate`. Raises ValueError with all that cannot be
+    /// shown, OSError where nothing can be written.
     #[pyo3(signature = (path=None, kernel=None, *, title=None, rods=None, traces=None, urdf=None, up=None, follow=None,
         si=true))]
     #[expect(clippy::too_many_arguments, reason = "keywords")]
@@ -70,7 +82,17 @@ impl Run {
         si: bool,
     ) -> PyResult<Option<String>> {
         let (py, run) = (slf.py(), slf.get());
-        let (times, _) = arrays::numbers("t", slf.getattr("t")?.as_any())?;
+        let mut columns = Vec::new();
+        for (panel, names) in run.panels() {
+            for name in names {
+                let (values, _) = arrays::numbers(&name, slf.get_item(&name)?.as_any())?;
+                columns.push((panel, name, values));
+            }
+        }
+        let first = first_known(&columns);
+        let since = PySlice::new(py, first as isize, isize::MAX, 1);
+        let [t, q] = [slf.getattr("t")?.get_item(&since)?, slf.getattr("q")?.get_item(&since)?];
+        let (times, _) = arrays::numbers("t", &t)?;
         let name = kernel.map(|kernel| kernel.get().scene().description().name);
         let mut page = Recording::new(title.or(name).unwrap_or("A run"), times);
         if let Some(kernel) = kernel {
@@ -81,7 +103,7 @@ impl Run {
                 return Err(PyValueError::new_err(format!("the run is not one of {name}: it has other columns")));
             }
             for (number, frame) in scene.frames().iter().enumerate() {
-                page = page.body(frame, &poses(py, slf, kernel.get(), number)?, []);
+                page = page.body(frame, &poses(py, kernel.get(), number, (&t, &q))?, []);
             }
         }
         page = urdf.into_iter().fold(page, Recording::shapes_of_urdf);
@@ -96,12 +118,9 @@ impl Run {
         page = up.into_iter().fold(page, Recording::up);
         page = follow.into_iter().fold(page, Recording::follow);
         page = if si { page.si() } else { page };
-        for (panel, columns) in run.panels() {
-            for column in columns {
-                let (values, _) = arrays::numbers(&column, slf.get_item(&column)?.as_any())?;
-                page = page.curve(panel, &column, values);
-            }
-        }
+        page = columns
+            .into_iter()
+            .fold(page, |page, (panel, name, values)| page.curve(panel, &name, values[first..].to_vec()));
         let done = match path {
             Some(path) => page.write(path).map(|()| None),
             None => page.html().map(Some),

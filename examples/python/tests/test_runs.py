@@ -342,6 +342,21 @@ def test_runs_are_pages(pendulum, arm, tmp_path):
     assert "A run" in (tmp_path / "new" / "swing.html").read_text()
 
 
+def test_pages_of_contacts():
+    puck = scenes.Puck(mass=0.5, friction=0.3, restitution=0.6, g=9.81)
+    start = puck.state(z=0.3, x_dot=2.0)
+    for how in ({}, dict(contacts="steps", step=5e-3)):
+        run = puck.simulate(*start, (0, 1), input=[0.0], **how)
+        page = run.page(kernel=puck)
+        data = json.loads(re.search(r'<script[^>]*type="application/json"[^>]*>(.*?)</script>', page, re.S)[1])
+        panels = {panel["title"]: panel["curves"] for panel in data["panels"]}
+        assert list(panels) == ["configuration", "speeds", "energy", "contacts", "forces"]
+        # Forces of steps are those of the step before.
+        known = np.isfinite(run["floor force"])
+        assert data["times"] == run.t[known].tolist() and known[1:].all()
+        assert panels["forces"][0]["values"] == run["floor force"][known].tolist()
+
+
 def test_mistakes_with_pages(pendulum, arm, tmp_path):
     run = pendulum.simulate([0.3], [0.0], (0, 1), input=[0.0])
     with pytest.raises(ValueError, match="the run is not one of Arm: it has other columns"):

@@ -11,8 +11,8 @@ const NEAR: usize = 3;
 
 /// A function of up to three numbers by its values at the points of a grid, whose size is known at run time.
 ///
-/// It gives what a [`Grid`](super::Grid) of the same points gives, bit by bit: beyond the grid it goes on straight along
-/// each axis.
+/// It gives what a [`Grid`](super::Grid) of the same points gives, bit by bit: beyond the grid it goes on straight
+/// along each axis.
 ///
 /// ```
 /// use gauss_runtime::table::{Joined, Table};

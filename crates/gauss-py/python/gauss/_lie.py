@@ -28,8 +28,8 @@ def exp6(increment):
 
 
 def log6(pose):
-    """The twist (..., 6) by which a body comes to the motion (..., 4, 4) within a second, with the angle at most pi: the
-    inverse of `exp6`."""
+    """The twist (..., 6) by which a body comes to the motion (..., 4, 4) within a second, with the angle at most pi:
+    the inverse of `exp6`."""
     pose = _poses("pose", pose)
     return _native.log6(pose.reshape(-1, 16)).reshape(pose.shape[:-2] + (6,))
 

@@ -178,8 +178,8 @@ class Kernel(_native.Kernel):
         return plan
 
     def call(self, method, *arguments, t=0.0, threads=1, **named):
-        """Calls a program by its name; `threads` share the rows of a batch. Parameters are keywords in place of those of
-        the kernel, one for all rows or one for each."""
+        """Calls a program by its name; `threads` share the rows of a batch. Parameters are keywords in place of those
+        of the kernel, one for all rows or one for each."""
         plan = self._plan(method)
         if "input" in plan.sizes and method not in OF_CONTACTS and self._touches:
             raise ContactError(
@@ -254,8 +254,8 @@ def scene(text, /, *, tables=None, **fields):
     (None where it has none) or a `Field`; or a text with the struct itself, and no keywords.
 
     `tables` has an array for each constant that a clause `table(...)` names, by that name: {"POWER": points} of
-    `table(power, points = POWER)`. Points have the shape (n, 2), each of the `axes` the shape (n,), and `values` an axis
-    for each of these; units are those of the law that the table stands in.
+    `table(power, points = POWER)`. Points have the shape (n, 2), each of the `axes` the shape (n,), and `values` an
+    axis for each of these; units are those of the law that the table stands in.
 
     Raises `SceneError` with all mistakes of the text, then `ParameterError` with all of the arrays.
     """
