@@ -2,11 +2,11 @@
 #![deny(missing_docs, unsafe_code)]
 
 // `model` (text or file → what kernels share), `checks` (what `kernel()` checks, of `gauss_codegen::parameters`, by the
-// functions that generated code calls), `configuration` (groups that are known at run time), `kernel` (methods by
-// name), `system` (for `Simulation`, with room that the program says), `contacts` (for runs with contacts, with room
-// for their rows), `cache` (a folder of derivations), `names` (what outlives models), `error`; `backends`: `cranelift`
-// (programs → machine code), `machine` (its memory and its calls: the only `unsafe`), `interpreter`, `functions` that
-// both call.
+// functions that generated code calls), `configuration` (groups that are known at run time), `tables` (arrays of
+// tables), `kernel` (methods by name), `system` (for `Simulation`, with room that the program says), `contacts` (for
+// runs with contacts, with room for their rows), `cache` (a folder of derivations), `names` (what outlives models),
+// `error`; `backends`: `cranelift` (programs → machine code), `machine` (its memory and its calls: the only `unsafe`),
+// `interpreter`, `functions` that both call.
 mod backends;
 #[cfg(feature = "cache")]
 mod cache;

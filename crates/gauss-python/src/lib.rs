@@ -43,11 +43,11 @@
 
 // `memory` (the only access by address), `methods` (`words`: the list; `table`: each as a loop over rows), `steps` (one
 // run, of `contacts` too), `scene` (a struct), `runs` (many), `kernels` (in one lane and in eight); what Python sees:
-// `arrays`, `call`, `parameters`, `class`, `states` (structured arrays), `calls` and `given` (functions of Python, what
-// a run is given), `simulation`, `run` and `plot.py`, `ends`, `columns`, `tuples`, `threads`, `errors`, `stubs`, `jax`
-// (`abi`: the calls of XLA; `door.py`: functions of JAX), `make`. `loaded`: a model at run time behind the same two
-// traits, `AnyScene` and `AnyKernel`: `scene`, `rows` (methods), `runs` (in the smallest room that it fits into).
-// `examples/python`: a package, its tests and a notebook.
+// `arrays`, `own` (parameters of rows), `call`, `parameters`, `class`, `states` (structured arrays), `calls` and
+// `given` (functions of Python, what a run is given), `simulation`, `run` with `plot.py` and `page`, `ends`, `columns`,
+// `tuples`, `threads`, `errors`, `stubs`, `jax` (`abi`: the calls of XLA; `door.py`: functions of JAX), `make`.
+// `loaded`: a model at run time behind the same two traits, `AnyScene` and `AnyKernel`: `scene`, `rows` (methods),
+// `runs` (in the smallest room that it fits into). `examples/python`: a package, its tests and a notebook.
 mod arrays;
 mod call;
 mod calls;
