@@ -305,6 +305,10 @@ pub const TABLES: Row = Row {
         ("dst", together("table_of_two::of_a_step")),
         ("run", together("table_of_two::along_a_run")),
         ("stu", together("table_of_two::study")),
+        (
+            "py",
+            shown("crates/gauss-py/tests/test_tables.py", "test_forces_are_those_of_formulas").but("loaded kernels"),
+        ),
     ],
 };
 
