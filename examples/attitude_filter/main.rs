@@ -9,6 +9,8 @@ mod filter;
 mod model;
 mod picture;
 mod study;
+#[cfg(test)]
+mod tests;
 
 use std::error::Error;
 

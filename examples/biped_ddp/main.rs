@@ -9,6 +9,8 @@ mod model;
 mod page;
 mod picture;
 mod plan;
+#[cfg(test)]
+mod tests;
 
 use std::error::Error;
 use std::time::Instant;

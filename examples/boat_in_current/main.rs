@@ -9,6 +9,8 @@ use gauss_runtime::prelude::*;
 
 mod boat;
 mod picture;
+#[cfg(test)]
+mod tests;
 
 use boat::{Boat, BoatKernel, in_still_water, winding};
 use picture::Crossing;

@@ -7,6 +7,8 @@
 
 mod laws;
 mod model;
+#[cfg(test)]
+mod tests;
 
 use laws::{LAWS, difference};
 use model::THROWS;

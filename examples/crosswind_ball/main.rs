@@ -4,6 +4,8 @@
 //! `target/gauss`.
 
 mod model;
+#[cfg(test)]
+mod tests;
 
 use gauss_charts::drawing::COLOURS;
 use gauss_examples::plots::{Line, Plot, sheet, write, write_page};

@@ -5,6 +5,8 @@
 //! default `target/gauss`.
 
 mod model;
+#[cfg(test)]
+mod tests;
 
 use gauss_contact::{ContactError, ContactRun, ContactTrajectory, EventKind, Mode};
 use gauss_examples::plots::write_page;

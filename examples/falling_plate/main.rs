@@ -6,6 +6,8 @@
 mod picture;
 mod reference;
 mod scene;
+#[cfg(test)]
+mod tests;
 
 use std::f64::consts::PI;
 

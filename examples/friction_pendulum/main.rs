@@ -6,6 +6,8 @@
 
 mod picture;
 mod scene;
+#[cfg(test)]
+mod tests;
 
 use gauss_contact::{ContactError, ContactRun, ContactTrajectory, EventKind};
 use gauss_examples::plots::{write, write_page};

@@ -5,6 +5,8 @@
 //! `target/gauss`.
 
 mod hand;
+#[cfg(test)]
+mod tests;
 
 use std::error::Error;
 

@@ -7,6 +7,8 @@
 
 mod model;
 mod plan;
+#[cfg(test)]
+mod tests;
 
 use std::error::Error;
 

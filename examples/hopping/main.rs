@@ -5,6 +5,8 @@
 
 mod model;
 mod picture;
+#[cfg(test)]
+mod tests;
 
 use gauss_contact::{ContactRun, EventKind};
 use gauss_examples::plots::{write, write_page};

@@ -13,6 +13,8 @@ use gauss_runtime::integrate::Trajectory;
 use gauss_runtime::prelude::*;
 
 mod hull;
+#[cfg(test)]
+mod tests;
 
 use hull::{Hull, HullKernel, HullState};
 

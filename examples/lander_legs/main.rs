@@ -8,6 +8,8 @@
 #[allow(dead_code, reason = "a module of two examples")]
 mod lander;
 mod picture;
+#[cfg(test)]
+mod tests;
 
 use std::error::Error;
 use std::time::Instant;

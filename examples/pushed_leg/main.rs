@@ -7,6 +7,8 @@
 #[allow(dead_code, reason = "the page asks for more")]
 mod leg;
 mod page;
+#[cfg(test)]
+mod tests;
 
 use std::error::Error;
 

@@ -6,6 +6,8 @@
 mod model;
 mod newton_euler;
 mod picture;
+#[cfg(test)]
+mod tests;
 
 use gauss_examples::plots;
 use gauss_runtime::monitor::power_balance;

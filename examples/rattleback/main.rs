@@ -13,6 +13,8 @@ use gauss_runtime::prelude::*;
 mod picture;
 mod stone;
 mod table;
+#[cfg(test)]
+mod tests;
 
 use stone::{AXES, PRODUCT, Rattleback, RattlebackKernel, stone};
 use table::{OnTable, OnTableKernel, Run, obliquity, spun};

@@ -18,6 +18,8 @@ use gauss_runtime::prelude::*;
 
 mod craft;
 mod recording;
+#[cfg(test)]
+mod tests;
 
 use craft::{Craft, CraftKernel, apart, replay, replay_by_hand};
 use recording::{Recording, Row};

@@ -10,6 +10,8 @@ use gauss_runtime::prelude::*;
 mod fossen;
 mod manoeuvres;
 mod picture;
+#[cfg(test)]
+mod tests;
 mod vehicle;
 
 use fossen::Fossen;

@@ -4,6 +4,8 @@
 
 mod model;
 mod picture;
+#[cfg(test)]
+mod tests;
 
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_2, TAU};

@@ -8,6 +8,8 @@
 mod model;
 mod page;
 mod picture;
+#[cfg(test)]
+mod tests;
 
 use gauss_examples::plots::{write, write_page};
 use gauss_runtime::prelude::*;

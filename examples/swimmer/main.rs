@@ -12,6 +12,8 @@ use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 
 mod fish;
+#[cfg(test)]
+mod tests;
 
 use fish::{Fish, FishKernel, LONG, SHORT, start};
 

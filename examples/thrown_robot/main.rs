@@ -11,6 +11,8 @@ use gauss_runtime::monitor::power_balance;
 use gauss_runtime::prelude::*;
 
 mod model;
+#[cfg(test)]
+mod tests;
 
 use model::{G, Quadruped, QuadrupedKernel, Whole, thrown};
 

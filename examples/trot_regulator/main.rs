@@ -11,6 +11,8 @@ mod gait;
 mod page;
 mod picture;
 mod robot;
+#[cfg(test)]
+mod tests;
 
 use std::error::Error;
 use std::time::{Duration, Instant};

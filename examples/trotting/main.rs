@@ -6,6 +6,8 @@
 
 mod page;
 mod robot;
+#[cfg(test)]
+mod tests;
 
 use std::error::Error;
 use std::fmt::Write;

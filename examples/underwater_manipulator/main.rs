@@ -11,6 +11,8 @@ use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 
 mod by_hand;
+#[cfg(test)]
+mod tests;
 mod vehicle;
 
 use vehicle::{LINK, Place, SHOULDER, Speeds, Vehicle, VehicleKernel, reach};

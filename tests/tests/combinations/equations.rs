@@ -34,7 +34,7 @@ pub const SMOOTH: Row = Row {
                 "poses_are_those_of_the_kernel_and_nothing_comes_from_elsewhere",
             ),
         ),
-        ("mon", shown("examples/tests/thrown_robot.rs", "a_thrown_robot_keeps_its_spin")),
+        ("mon", shown("examples/thrown_robot/tests.rs", "a_thrown_robot_keeps_its_spin")),
         (
             "fwd",
             shown("crates/gauss-sensitivity/tests/derivatives/groups.rs", "poses_have_increments_of_six_components"),
@@ -201,7 +201,7 @@ pub const STATES: Row = Row {
         ("one", together("states::by_hand")),
         ("lan", shown("tests/tests/systems/elements_with_states/beside.rs", "packs_have_states")),
         ("thr", together("states::lanes_and_threads")),
-        ("at", shown("examples/tests/hull_memory.rs", "states_are_the_convolution_over_the_run")),
+        ("at", shown("examples/hull_memory/tests.rs", "states_are_the_convolution_over_the_run")),
         ("tab", together("states::table_and_plot")),
         ("plt", together("states::table_and_plot")),
         ("pag", together("states::page")),
@@ -366,7 +366,7 @@ pub const RECORDED: Row = Row {
         (
             "ada",
             shown(
-                "examples/tests/recorded_inputs.rs",
+                "examples/recorded_inputs/tests.rs",
                 "a_replay_agrees_with_equations_by_hand_and_with_the_closed_form",
             )
             .but("a run for each interval between two rows, where the input has its corners"),
@@ -377,7 +377,7 @@ pub const RECORDED: Row = Row {
         ("evt", shown("tests/tests/goes_together/contacts.rs", "recorded_push")),
         (
             "stp",
-            shown("examples/tests/trotting.rs", "it_trots_and_recorded_torques_give_the_same_bits")
+            shown("examples/trotting/tests.rs", "it_trots_and_recorded_torques_give_the_same_bits")
                 .but("a row for each step"),
         ),
         ("one", together("recorded::by_hand")),

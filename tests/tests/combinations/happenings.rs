@@ -224,7 +224,7 @@ pub const RANGES: Row = Row {
             )
             .but(FREE_STEP_DERIVATIVES),
         ),
-        ("run", shown("examples/tests/hop_mpc.rs", "plans_hop_on_after_a_blow_and_thrusts_alone_do_not")),
+        ("run", shown("examples/hop_mpc/tests.rs", "plans_hop_on_after_a_blow_and_thrusts_alone_do_not")),
         ("stu", shown(TOUCHING, "ranges_in_rows_of_studies")),
         ("py", shown("examples/python/tests/test_contacts.py", "test_ranges_and_dry_friction").but(IN_PYTHON)),
     ],
@@ -302,7 +302,7 @@ pub const CONTACTS: Row = Row {
             )
             .but(FREE_STEP_DERIVATIVES),
         ),
-        ("run", shown("examples/tests/trot_regulator.rs", "gains_from_derivatives_of_steps_hold_a_trot")),
+        ("run", shown("examples/trot_regulator/tests.rs", "gains_from_derivatives_of_steps_hold_a_trot")),
         ("stu", shown(TOUCHING, "contacts_in_rows_of_studies")),
         ("py", shown("examples/python/tests/test_contacts.py", "test_from_event_to_event").but(IN_PYTHON)),
     ],

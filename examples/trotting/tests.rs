@@ -3,11 +3,9 @@
 
 use std::error::Error;
 
-#[path = "../trotting/robot.rs"]
-mod robot;
-
+use crate::robot;
+use crate::robot::{Anymal, AnymalKernel, STEP, STRIDE, run, start, trot};
 use gauss_runtime::prelude::*;
-use robot::{Anymal, AnymalKernel, STEP, STRIDE, run, start, trot};
 
 const FILE: &str = include_str!("../../tests/robots/anymal.urdf");
 

@@ -3,15 +3,10 @@
 
 use std::error::Error;
 use std::fs;
-use std::path::Path;
 use std::process::Command;
 
-#[path = "../pushed_leg/leg.rs"]
-mod leg;
-#[path = "../pushed_leg/page.rs"]
-mod page;
-
-use leg::{HOPPER, LIES, Leg, Push, STEP, WANTED, Wanted};
+use crate::leg::{HOPPER, LIES, Leg, Push, STEP, WANTED, Wanted};
+use crate::{leg, page};
 
 const NONE: Push = Push { force: [0.0; 2], at: [0.0; 2] };
 
@@ -69,7 +64,8 @@ fn it_moves_in_the_browser_as_it_does_here() -> Result<(), Box<dyn Error>> {
         println!("`rustup target add wasm32-unknown-unknown` installs the missing target: nothing was tried");
         return Ok(());
     }
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let folder = gauss_files::output_folder().join("tests");
+    fs::create_dir_all(&folder)?;
     let file = folder.join("pushed_leg.html");
     fs::write(&file, page::html(&page::module(false)?))?;
 

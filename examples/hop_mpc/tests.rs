@@ -1,13 +1,8 @@
 //! The claims of the example `hop_mpc`: derivatives of steps are those of differences, in flight and on the ground;
 //! plans keep the leg hopping after a blow, the thrusts of the model alone do not.
 
-#[path = "../hop_mpc/model.rs"]
-mod model;
-#[path = "../hop_mpc/plan.rs"]
-mod plan;
-
-use model::{HALF, Model, by_plans, run, thrusts, wanted};
-use plan::{Plant, State};
+use crate::model::{HALF, Model, by_plans, run, thrusts, wanted};
+use crate::plan::{Plant, State};
 
 #[test]
 fn derivatives_of_steps_are_those_of_differences() {

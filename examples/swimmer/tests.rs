@@ -4,11 +4,7 @@
 use gauss_runtime::prelude::*;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-#[path = "../swimmer/fish.rs"]
-#[expect(dead_code, reason = "what the example draws")]
-mod fish;
-
-use fish::{Fish, start};
+use crate::fish::{Fish, start};
 
 #[test]
 fn it_goes_where_its_impulse_says() {

@@ -2,13 +2,8 @@
 
 use gauss_runtime::prelude::*;
 
-#[path = "../recorded_inputs/craft.rs"]
-mod craft;
-#[path = "../recorded_inputs/recording.rs"]
-mod recording;
-
-use craft::{Craft, apart, replay, replay_by_hand};
-use recording::Recording;
+use crate::craft::{Craft, apart, replay, replay_by_hand};
+use crate::recording::Recording;
 
 fn published() -> Recording {
     Recording::read(include_str!("../data/recorded_inputs.csv").as_bytes()).unwrap()

@@ -1,15 +1,12 @@
 //! The physics of the example `satellite`.
 
-#[path = "../satellite/model.rs"]
-mod model;
-
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use gauss_runtime::prelude::*;
-use model::{
+use crate::model::{
     FromTheCentre, MU, RADIUS, Slewer, cubesat, libration_frequency, libration_period, mean_motion, measured_period,
     orbit, orbiter, pitch, slew, slew_torque, start, tumble_by_hand,
 };
+use gauss_runtime::prelude::*;
 
 /// An error of 10⁻¹² in each step is an error of phase of as much over the amplitude, and the steps of at most 20 s are
 /// some 300 an orbit. The interpolation between samples is of fourth order: (20 s · 10⁻³/s)⁴/384 of the amplitude.

@@ -2,10 +2,7 @@
 
 use gauss_runtime::prelude::*;
 
-#[path = "../hull_memory/hull.rs"]
-mod hull;
-
-use hull::{Hull, HullState};
+use crate::hull::{Hull, HullState};
 
 #[test]
 fn states_are_the_convolution_over_the_run() {

@@ -3,10 +3,7 @@
 
 use gauss_runtime::prelude::*;
 
-#[path = "../boat_in_current/boat.rs"]
-mod boat;
-
-use boat::{Boat, BoatKernel, in_still_water, winding};
+use crate::boat::{Boat, BoatKernel, in_still_water, winding};
 
 type Speeds = SVector<f64, 3>;
 

@@ -1,19 +1,11 @@
 //! The claims of the example `trot_regulator`: derivatives of steps say what becomes of a small push through
 //! touchdowns, torques alone let the robot fall after a push, and gains bring it back to its gait.
 
-#[path = "../trot_regulator/gait.rs"]
-mod gait;
-#[path = "../trot_regulator/page.rs"]
-mod page;
-#[path = "../trot_regulator/picture.rs"]
-mod picture;
-#[path = "../trot_regulator/robot.rs"]
-mod robot;
-
 use gauss_runtime::prelude::*;
 
-use gait::{BACK, Gains, Gait, LEAST, PUSHED, Ways, largest, pushed};
-use robot::{Deviation, Robot, STEP};
+use crate::gait::{BACK, Gains, Gait, LEAST, PUSHED, Ways, largest, pushed};
+use crate::robot::{Deviation, Robot, STEP};
+use crate::{page, picture};
 
 #[test]
 fn gains_from_derivatives_of_steps_hold_a_trot() {

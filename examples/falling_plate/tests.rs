@@ -1,16 +1,12 @@
 //! The claims of the example `falling_plate`, against equations typed by hand, Lamb's ellipsoids, and Chaplygin's
 //! equation.
 
-#[path = "../falling_plate/reference.rs"]
-mod reference;
-#[path = "../falling_plate/scene.rs"]
-mod scene;
-
 use std::f64::consts::PI;
 
 use gauss_runtime::prelude::*;
 
-use scene::{FLUTTERING, IdealPlate, Plate, THICKNESS, TUMBLING, added_mass, places, released};
+use crate::reference;
+use crate::scene::{FLUTTERING, IdealPlate, Plate, THICKNESS, TUMBLING, added_mass, places, released};
 
 #[test]
 fn the_accelerations_are_those_of_the_paper() {

@@ -1,17 +1,9 @@
 //! The claims of the example `biped_ddp`: the gradient of the cost is that of differences, the cost falls from
 //! iteration to iteration, the biped steps onto its goal by the laws of contact, and the picture is drawn.
 
-#[path = "../biped_ddp/model.rs"]
-mod model;
-#[path = "../biped_ddp/page.rs"]
-mod page;
-#[path = "../biped_ddp/picture.rs"]
-mod picture;
-#[path = "../biped_ddp/plan.rs"]
-mod plan;
-
-use model::Walker;
-use plan::{Looked, along, falls, guess, off, task};
+use crate::model::Walker;
+use crate::plan::{Looked, along, falls, guess, off, task};
+use crate::{page, picture};
 
 #[test]
 fn a_plan_through_contacts_steps_onto_its_goal() {

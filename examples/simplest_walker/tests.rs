@@ -1,11 +1,6 @@
 //! The claims of the example `simplest_walker`: its gaits, and the multipliers of small deviations.
 
-// The picture takes more of it.
-#[allow(dead_code, reason = "a module of the example")]
-#[path = "../simplest_walker/model.rs"]
-mod model;
-
-use model::{FOOT, Gait, LONG, SHORT, step, walk};
+use crate::model::{FOOT, Gait, LONG, SHORT, step, walk};
 
 #[test]
 fn gaits_and_multipliers_are_those_of_the_limit() {

@@ -1,16 +1,11 @@
 //! The claims of the example `rattleback`: a stone that friction holds is one that rolls by constraints; less friction
 //! lets it slide, which takes energy, and still less lets it forget to turn back.
 
-#[path = "../rattleback/stone.rs"]
-mod stone;
-#[path = "../rattleback/table.rs"]
-mod table;
-
 use gauss_contact::{EventKind, Mode};
 use gauss_runtime::prelude::*;
 
-use stone::{AXES, PRODUCT, Rattleback, pose, stone};
-use table::{OnTable, OnTableKernel, obliquity, spun, vertical};
+use crate::stone::{AXES, PRODUCT, Rattleback, pose, stone};
+use crate::table::{OnTable, OnTableKernel, obliquity, spun, vertical};
 
 fn on_table(mu: f64) -> OnTableKernel {
     OnTable { stone: stone(PRODUCT), a: AXES.into(), mu, g: 9.81 }.kernel().unwrap()

@@ -1,21 +1,12 @@
 //! The filter of the example `attitude_filter`: its transition against differences of the very prediction, its update
 //! against the closed form on three axes, and its consistency.
 
-#[allow(dead_code)] // The program compares more.
-#[path = "../attitude_filter/filter.rs"]
-mod filter;
-#[path = "../attitude_filter/model.rs"]
-mod model;
-#[allow(dead_code)] // The program prints more of it.
-#[path = "../attitude_filter/study.rs"]
-mod study;
-
 use gauss_charts::statistics::Random;
 use gauss_runtime::prelude::*;
 
-use filter::{Estimate, Transition};
-use model::{DISTURBANCE, FIRST, LOOKS, STEP, STEPS, TRACKER, happens, nominal, spacecraft};
-use study::{DIMENSION, Followed, interval};
+use crate::filter::{Estimate, Transition};
+use crate::model::{DISTURBANCE, FIRST, LOOKS, STEP, STEPS, TRACKER, happens, nominal, spacecraft};
+use crate::study::{DIMENSION, Followed, interval};
 
 /// Ten steps of the filter are a map whose derivatives carry the covariance: differences of that map say the same.
 #[test]

@@ -2,13 +2,8 @@
 
 use gauss_runtime::prelude::*;
 
-#[path = "../underwater_manipulator/by_hand.rs"]
-#[expect(dead_code, reason = "the example runs it")]
-mod by_hand;
-#[path = "../underwater_manipulator/vehicle.rs"]
-mod vehicle;
-
-use vehicle::{Place, Speeds, Vehicle, reach};
+use crate::by_hand;
+use crate::vehicle::{Place, Speeds, Vehicle, reach};
 
 /// Numbers in −1 … 1 that look random, from a counter.
 fn number(k: u32) -> f64 {

@@ -1,13 +1,9 @@
 //! The physics of the example `quadrotor`.
 
-#[path = "../quadrotor/model.rs"]
-mod model;
-#[path = "../quadrotor/newton_euler.rs"]
-mod newton_euler;
-
+use crate::model::{Quadrotor, QuadrotorKernel, Seen, pilot, wanted};
+use crate::newton_euler;
 use gauss_runtime::monitor::power_balance;
 use gauss_runtime::prelude::*;
-use model::{Quadrotor, QuadrotorKernel, Seen, pilot, wanted};
 
 fn seen(q: &Isometry3<f64>, z: &SVector<f64, 6>) -> Seen {
     Seen {

@@ -1,12 +1,9 @@
 //! The claims of the example `thrown_robot`: momentum as of a falling body, spin kept, energy accounted.
 
-#[path = "../thrown_robot/model.rs"]
-mod model;
-
 use gauss_runtime::monitor::power_balance;
 use gauss_runtime::prelude::*;
 
-use model::{G, Quadruped, Whole, thrown};
+use crate::model::{G, Quadruped, Whole, thrown};
 
 /// A tolerance of 1e-10 a step, some hundred steps: momenta are no part of the state, but smooth functions of it.
 #[test]

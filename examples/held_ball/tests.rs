@@ -3,11 +3,8 @@
 
 use std::error::Error;
 
-#[path = "../held_ball/hand.rs"]
-mod hand;
-
+use crate::hand::{Hand, STEP, hold};
 use gauss_runtime::prelude::*;
-use hand::{Hand, STEP, hold};
 
 #[test]
 fn a_held_ball_does_not_creep() -> Result<(), Box<dyn Error>> {

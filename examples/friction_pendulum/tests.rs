@@ -1,12 +1,9 @@
 //! The claims of the example `friction_pendulum`, against equations typed by hand.
 
-#[path = "../friction_pendulum/scene.rs"]
-mod scene;
-
 use gauss_contact::{ContactRun, EventKind};
 use gauss_runtime::prelude::*;
 
-use scene::Pendulum;
+use crate::scene::Pendulum;
 
 /// The torques of gravity, spiral, buffer with its damping, and friction while it falls or
 /// rises, N m: a uniform rod hangs at rest, angles from there.

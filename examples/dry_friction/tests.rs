@@ -1,12 +1,9 @@
 //! The claims of the example `dry_friction`: the exact solution of a slider; energy and friction times way; what is
 //! decided at rest.
 
-#[path = "../dry_friction/model.rs"]
-mod model;
-
+use crate::model::{Arm, ArmKernel, SWINGS, Slider, SmoothArm};
 use gauss_contact::{ContactRun, ContactTrajectory, EventKind, Mode};
 use gauss_runtime::prelude::*;
-use model::{Arm, ArmKernel, SWINGS, Slider, SmoothArm};
 
 const ARM: Arm = Arm { g: 9.81, f_shoulder: 0.8, f_elbow: 0.3 };
 const LIMITS: [f64; 2] = [ARM.f_shoulder, ARM.f_elbow];

@@ -3,14 +3,9 @@
 
 use std::error::Error;
 
-// The picture takes more of it.
-#[allow(dead_code, reason = "a module of the example")]
-#[path = "../lander_legs/lander.rs"]
-mod lander;
-
+use crate::lander::{G, LONGEST, Lander, Lever, Outcome, Parameters, STEP, above_ground, touch_down};
 use gauss_runtime::prelude::*;
 use gauss_study::Declaration;
-use lander::{G, LONGEST, Lander, Lever, Outcome, Parameters, STEP, above_ground, touch_down};
 
 /// Feet that stick, struts that hold.
 fn stiff() -> Lander {

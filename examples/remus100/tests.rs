@@ -2,16 +2,9 @@
 
 use gauss_runtime::prelude::*;
 
-#[path = "../remus100/fossen.rs"]
-mod fossen;
-#[path = "../remus100/manoeuvres.rs"]
-mod manoeuvres;
-#[path = "../remus100/vehicle.rs"]
-mod vehicle;
-
-use fossen::Fossen;
-use manoeuvres::{EVERY, Flight, Leg, Manoeuvre, Pilot, Steering, distance, fly};
-use vehicle::{Remus, RemusByAngles, Table};
+use crate::fossen::Fossen;
+use crate::manoeuvres::{EVERY, Flight, Leg, Manoeuvre, Pilot, Steering, distance, fly};
+use crate::vehicle::{Remus, RemusByAngles, Table};
 
 fn table() -> Table {
     Table::published().unwrap()

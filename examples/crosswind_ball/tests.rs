@@ -1,10 +1,7 @@
 //! The physics of the example `crosswind_ball`.
 
-#[path = "../crosswind_ball/model.rs"]
-mod model;
-
+use crate::model::{Ball, acceleration, fly, fly_by_hand};
 use gauss_runtime::prelude::*;
-use model::{Ball, acceleration, fly, fly_by_hand};
 
 /// 10⁻¹¹ of a state of size 30 is the tolerance of each of some 700 steps; errors of velocities grow with the time.
 fn tolerance(seconds: f64) -> f64 {

@@ -1,12 +1,9 @@
 //! The claims of the example `hopping`: hand-overs lose nothing, the gait of the literature is stable, and impacts come
 //! when they should, until the ball rests.
 
-#[path = "../hopping/model.rs"]
-mod model;
-
 use gauss_contact::{ContactRun, EventKind};
 
-use model::{Ball, Runner};
+use crate::model::{Ball, Runner};
 
 #[test]
 fn hand_overs_keep_energy_and_stances_are_symmetric_in_a_gait() {

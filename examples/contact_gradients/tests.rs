@@ -1,12 +1,7 @@
 //! The claims of the example `contact_gradients`: which law has which derivatives through contact.
 
-#[path = "../contact_gradients/laws.rs"]
-mod laws;
-#[path = "../contact_gradients/model.rs"]
-mod model;
-
-use laws::{LAWS, STEP, difference};
-use model::{G, THROWS};
+use crate::laws::{LAWS, STEP, difference};
+use crate::model::{G, THROWS};
 
 #[test]
 fn runs_from_event_to_event_have_the_derivatives_of_closed_forms() {
