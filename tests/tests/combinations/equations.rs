@@ -30,7 +30,7 @@ pub const SMOOTH: Row = Row {
         (
             "pag",
             shown(
-                "crates/gauss-playback/tests/page.rs",
+                "crates/gauss-playback/tests/playback/page.rs",
                 "poses_are_those_of_the_kernel_and_nothing_comes_from_elsewhere",
             ),
         ),
@@ -49,7 +49,7 @@ pub const SMOOTH: Row = Row {
         ("lin", shown("tests/tests/derivatives/linearize.rs", "a_body_in_a_fluid")),
         ("dst", shown("tests/tests/derivatives/discrete.rs", "groups_and_scalars")),
         ("run", shown("tests/tests/derivatives/discrete.rs", "steps_after_one_another")),
-        ("stu", shown("crates/gauss-study/tests/lanes.rs", "rows_of_lanes_are_those_of_single_runs")),
+        ("stu", shown("crates/gauss-study/tests/study/lanes.rs", "rows_of_lanes_are_those_of_single_runs")),
         ("py", shown("examples/python/tests/test_methods.py", "test_methods_agree")),
     ],
 };

@@ -148,7 +148,7 @@ pub const JUMPS: Row = Row {
         ("at", shown("tests/tests/runs/events.rs", "a_ball_bounces_by_every_method")),
         ("tab", together("jump::table_and_plot")),
         ("plt", together("jump::table_and_plot")),
-        ("pag", shown("crates/gauss-playback/tests/page.rs", "a_jump_is_a_jump")),
+        ("pag", shown("crates/gauss-playback/tests/playback/page.rs", "a_jump_is_a_jump")),
         ("mon", together("jump::energy")),
         (
             "fwd",
@@ -275,7 +275,7 @@ pub const CONTACTS: Row = Row {
         ("plt", shown(TOUCHING, "contacts_in_tables_and_plots")),
         (
             "pag",
-            shown("crates/gauss-playback/tests/contact.rs", "contacts_have_places_modes_and_forces")
+            shown("crates/gauss-playback/tests/playback/contact.rs", "contacts_have_places_modes_and_forces")
                 .but("by events; in steps `the_plane_of_a_slope_is_drawn`"),
         ),
         (

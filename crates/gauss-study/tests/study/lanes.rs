@@ -1,8 +1,6 @@
 //! Runs that share vectors: the rows of single ones.
 
-mod common;
-
-use common::{Outcome, contents};
+use crate::common::{Outcome, contents};
 use gauss_batch::{Batch, Packs, States};
 use gauss_runtime::prelude::*;
 use gauss_study::{Declaration, normal, uniform};

@@ -1,10 +1,8 @@
 //! A run is a function of the seed and its number.
 
-mod common;
-
 use std::collections::HashSet;
 
-use common::Outcome;
+use crate::common::Outcome;
 use gauss_study::{Declaration, Plan, Sampler, fixed, grid, list, log_normal, normal, truncated_normal, uniform};
 
 const RUNS: u64 = 1024;

@@ -2,13 +2,11 @@
 
 #![cfg(unix)]
 
-mod common;
-
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::process::{Command, ExitCode};
 
-use common::{Outcome, contents, declaration, waves};
+use crate::common::{Outcome, contents, declaration, waves};
 use gauss_study::main_from;
 
 const CHILD: &str = "GAUSS_STUDY_WORDS";
@@ -35,7 +33,10 @@ fn gnu_parallel_makes_the_same_bytes() -> Outcome {
     // A program whose words are those of the command: this one.
     let program = programs.path().join("study");
     let this = std::env::current_exe()?;
-    fs::write(&program, format!("#!/bin/sh\n{CHILD}=\"$*\" exec \"{}\" child --exact --nocapture\n", this.display()))?;
+    fs::write(
+        &program,
+        format!("#!/bin/sh\n{CHILD}=\"$*\" exec \"{}\" parallel::child --exact --nocapture\n", this.display()),
+    )?;
     fs::set_permissions(&program, fs::Permissions::from_mode(0o755))?;
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/study/cluster/parallel.sh");
     let output =

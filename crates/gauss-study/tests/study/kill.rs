@@ -2,14 +2,12 @@
 
 #![cfg(unix)]
 
-mod common;
-
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Command, ExitCode, Stdio};
 use std::time::{Duration, Instant, SystemTime};
 
-use common::{Outcome, contents};
+use crate::common::{Outcome, contents};
 use gauss_study::{Declaration, Study, main_from, uniform};
 
 const CHILD: &str = "GAUSS_STUDY_CHILD";
@@ -39,7 +37,7 @@ fn child() -> Outcome {
 fn start(folder: &Path, shard: &str) -> std::io::Result<Child> {
     let line = format!("run\n--shard\n{shard}\n--out\n{}", folder.display());
     let mut command = Command::new(std::env::current_exe()?);
-    command.args(["child", "--exact"]).env(CHILD, line).stdout(Stdio::null()).stderr(Stdio::null()).spawn()
+    command.args(["kill::child", "--exact"]).env(CHILD, line).stdout(Stdio::null()).stderr(Stdio::null()).spawn()
 }
 
 fn unfinished(folder: &Path) -> usize {

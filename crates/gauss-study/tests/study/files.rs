@@ -1,11 +1,9 @@
 //! Results as files: the same bytes whoever made them, and every run a row.
 
-mod common;
-
 use std::fs;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use common::{Outcome, RUNS, contents, declaration, failures, waves};
+use crate::common::{Outcome, RUNS, contents, declaration, failures, waves};
 use gauss_study::{Declaration, Progress, Shard, StudyError, uniform};
 
 fn quiet(_: Progress) {}

@@ -1,10 +1,8 @@
 //! The files are read by pyarrow and polars, and SALib finds the same sensitivities: where Python has them.
 
-mod common;
-
 use std::process::Command;
 
-use common::{Outcome, declaration, failures, waves};
+use crate::common::{Outcome, declaration, failures, waves};
 use gauss_study::sensitivity::sobol_indices;
 use gauss_study::{Declaration, Plan, fixed, uniform};
 

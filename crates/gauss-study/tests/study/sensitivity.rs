@@ -1,10 +1,8 @@
 //! Sobol' indices of functions whose indices are known.
 
-mod common;
-
 use std::f64::consts::PI;
 
-use common::Outcome;
+use crate::common::Outcome;
 use gauss_study::sensitivity::{Index, sobol_indices};
 use gauss_study::{Declaration, Plan, uniform};
 
