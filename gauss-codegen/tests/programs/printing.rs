@@ -1,11 +1,9 @@
 //! Equations for people are no longer than the graph that they are printed from: what long rows have in common has a
 //! name.
 
-#[allow(dead_code)]
-mod common;
-#[path = "common/latex.rs"]
+#[path = "../common/latex.rs"]
 mod latex;
-#[path = "common/tex.rs"]
+#[path = "../common/tex.rs"]
 mod tex;
 
 use std::time::{Duration, Instant};
@@ -110,7 +108,8 @@ fn what_is_shared_is_printed_once() {
 /// Whatever was derived before in the same process.
 #[test]
 fn a_scene_is_printed_as_it_was_before() {
-    let of_scenes = || common::SCENES.map(|(name, source)| Derivation::of_source(source, name).expect("a valid scene"));
+    let of_scenes =
+        || crate::common::SCENES.map(|(name, source)| Derivation::of_source(source, name).expect("a valid scene"));
     for (first, second) in of_scenes().iter().zip(&of_scenes()) {
         for notation in [Notation::Text, Notation::Latex] {
             assert_eq!(first.equations(notation), second.equations(notation));
@@ -181,7 +180,7 @@ fn latex_can_be_set() {
 /// A line for each gap, slip and coefficient, of a body in a chart and of others.
 #[test]
 fn contacts_are_printed_by_their_names() {
-    let (_, source) = common::SCENES.iter().find(|(name, _)| *name == "Rolling").expect("a scene");
+    let (_, source) = crate::common::SCENES.iter().find(|(name, _)| *name == "Rolling").expect("a scene");
     let others = "#[gauss(coordinates(x, y), particle(mass = 1, position = [x, y, 0]), range(x, to = l),
         contact(wall_2, gap = y - x, slip = rate(x + y), friction = mu))] struct Corner { l: f64, mu: f64 }";
     let rubbing = "#[gauss(coordinates(x, y), particle(mass = 1, position = [x, y, 0]), dry_friction(x, bound = f),
@@ -341,7 +340,7 @@ const SIX_BARS: &str = "#[gauss(coordinates(a, b, c, d, e, f),
 /// Set by TeX on 16 cm: no line is wider. The test `operations` does the same with all its scenes.
 #[test]
 fn no_line_leaves_the_page() {
-    let scenes = common::SCENES.iter().copied().chain([("SixBars", SIX_BARS)]);
+    let scenes = crate::common::SCENES.iter().copied().chain([("SixBars", SIX_BARS)]);
     let derived = scenes.map(|(name, source)| (name, Derivation::of_source(source, name).expect("a valid scene")));
     let derived = derived.chain([("Bicycle", bicycle("")), ("Elastic", elastic(true))]);
     let equations: Vec<(String, String)> =

@@ -1,12 +1,10 @@
 //! Programs in C, compiled and run beside the interpreter. Where there is no C compiler there is nothing to test.
 
-mod common;
-
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use common::{Random, SCENES, close, derivation, random_arguments};
+use crate::common::{Random, SCENES, close, derivation, random_arguments};
 use gauss_codegen::program::{ArgumentKind, Program};
 use gauss_codegen::{Derivation, targets};
 

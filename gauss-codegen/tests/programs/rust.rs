@@ -1,12 +1,10 @@
 //! Programs as functions of Rust that stand alone, compiled and run beside the interpreter.
 
-mod common;
-
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::process::Command;
 
-use common::{Random, SCENES, close, derivation, random_arguments};
+use crate::common::{Random, SCENES, close, derivation, random_arguments};
 use gauss_codegen::program::{ArgumentKind, Program, Results};
 use gauss_codegen::{Derivation, targets};
 use proc_macro2::TokenStream;

@@ -1,9 +1,15 @@
 //! The public face as other crates use it: programs run on other numbers, written and read, refused when malformed, and
 //! in C.
 
+mod c;
+#[path = "../common/mod.rs"]
 mod common;
-#[path = "programs/poles.rs"]
+mod loops;
 mod poles;
+mod printing;
+mod rust;
+mod scene;
+mod without_value;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
