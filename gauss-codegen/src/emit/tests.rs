@@ -70,18 +70,8 @@ const VEHICLE: &str = "#[gauss(chart = hybrid)] pub struct Vehicle {
 }";
 
 #[test]
-fn a_whole_kernel() {
-    insta::assert_snapshot!(pretty(FREE));
-}
-
-#[test]
 fn acceleration_of_a_heavy_top_in_euler_angles() {
     insta::assert_snapshot!(function(TOP, "acceleration"));
-}
-
-#[test]
-fn acceleration_of_a_vehicle_in_a_fluid() {
-    insta::assert_snapshot!(function(VEHICLE, "acceleration"));
 }
 
 /// Products of series become lanes, sums of the rest are trees.
@@ -92,11 +82,6 @@ fn power_series_of_a_free_top() {
         #[gauss(inertia)] inertia: Vector3<f64>,
     }";
     insta::assert_snapshot!(function(source, "expand"));
-}
-
-#[test]
-fn parameters_of_a_vehicle_in_a_fluid() {
-    insta::assert_snapshot!(function(VEHICLE, "kernel"));
 }
 
 fn words(tokens: TokenStream, found: &mut Vec<String>) {
