@@ -71,10 +71,10 @@ fn no_input_is_too_much() {
     assert!(shown.is_empty(), "{} of {count}:\n{}", shown.len(), shown.join("\n"));
 }
 
-/// The other process: derives what it is asked for. Without being asked it does nothing.
+/// The other process, which `watch` starts: without being asked it would assert nothing.
 #[test]
+#[ignore = "the test above runs it"]
 fn derives_what_it_is_asked_for() {
-    if let (Some(first), Some(end)) = (number("MUTATIONS_FROM"), number("MUTATIONS_TO")) {
-        derive::all(first..end);
-    }
+    let asked = |variable| number(variable).expect("numbers of mutations");
+    derive::all(asked("MUTATIONS_FROM")..asked("MUTATIONS_TO"));
 }
