@@ -31,14 +31,14 @@ pub struct Parameters {
     /// to be regular.
     pub in_sum: bool,
     /// Functions that the struct declares, by the index that programs call each by; none where it is one of Rust.
-    pub tables: Vec<Option<Table>>,
+    pub tables: Vec<Option<TableClause>>,
 }
 
 /// A function by its values at points. Its numbers are constants of Rust, which are not read here.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
-pub struct Table {
+pub struct TableClause {
     /// The name of the function in the equations.
     pub name: String,
     /// Paths of the constants with the numbers along each axis of the grid; none: the values are points [x, y].

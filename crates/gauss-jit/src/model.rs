@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::{Arc, Once, OnceLock};
 
 use gauss_codegen::description::Description;
-use gauss_codegen::parameters::{Parameter, Parameters, Table};
+use gauss_codegen::parameters::{Parameter, Parameters, TableClause};
 use gauss_codegen::program::{Argument, Counts, Instruction, Program, Results};
 use gauss_codegen::{Derivation, Notation, Scene};
 use gauss_runtime::contact::Contact;
@@ -306,7 +306,7 @@ pub(crate) fn of_file(format: &str, path: &Path, clauses: &[&str]) -> String {
 }
 
 /// The name of a function of Rust that the program calls.
-fn called(program: &Program, tables: &[Option<Table>]) -> Option<String> {
+fn called(program: &Program, tables: &[Option<TableClause>]) -> Option<String> {
     program.code.instructions.iter().find_map(|instruction| match instruction {
         Instruction::Own(function, _) if tables.get(usize::from(function.index)).is_none_or(Option::is_none) => {
             program.functions.get(usize::from(function.index)).cloned()

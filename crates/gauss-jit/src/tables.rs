@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use gauss_codegen::parameters::{self, Interpolation};
+use gauss_codegen::parameters::{Interpolation, TableClause};
 use gauss_codegen::program::{MOST_VARIABLES, OwnFunction};
 use gauss_runtime::table::{Joined, Table, TableFault};
 
@@ -22,7 +22,7 @@ impl Tables {
     ///
     /// # Errors
     /// Every array that is not as the model has it.
-    pub(crate) fn of(declared: &[Option<parameters::Table>], arrays: &[Array<'_>]) -> Result<Self, Vec<TableMistake>> {
+    pub(crate) fn of(declared: &[Option<TableClause>], arrays: &[Array<'_>]) -> Result<Self, Vec<TableMistake>> {
         let mut mistakes = named(declared, arrays);
         let list = declared.iter().map(|table| {
             let table = table.as_ref()?;
@@ -55,18 +55,18 @@ impl Tables {
     }
 
     /// Whether all that are declared are there.
-    pub(crate) fn has_all(&self, declared: &[Option<parameters::Table>]) -> bool {
+    pub(crate) fn has_all(&self, declared: &[Option<TableClause>]) -> bool {
         declared.iter().enumerate().all(|(k, table)| table.is_none() || self.list.get(k).is_some_and(Option::is_some))
     }
 }
 
 /// The constants that a table has its numbers in.
-pub fn constants(table: &parameters::Table) -> impl Iterator<Item = &String> {
+pub fn constants(table: &TableClause) -> impl Iterator<Item = &String> {
     table.axes.iter().chain([&table.values])
 }
 
 /// Names that are missing, given twice, or of no table.
-fn named(declared: &[Option<parameters::Table>], arrays: &[Array<'_>]) -> Vec<TableMistake> {
+fn named(declared: &[Option<TableClause>], arrays: &[Array<'_>]) -> Vec<TableMistake> {
     let mut known: Vec<String> = Vec::new();
     for name in declared.iter().flatten().flat_map(constants) {
         if !known.contains(name) {
@@ -88,7 +88,7 @@ fn named(declared: &[Option<parameters::Table>], arrays: &[Array<'_>]) -> Vec<Ta
 }
 
 /// The table of the arrays that have the names of its constants; none where one is missing.
-fn made(table: &parameters::Table, arrays: &[Array<'_>]) -> Result<Option<Table>, Vec<TableMistake>> {
+fn made(table: &TableClause, arrays: &[Array<'_>]) -> Result<Option<Table>, Vec<TableMistake>> {
     let given: Option<Vec<Array<'_>>> =
         constants(table).map(|name| arrays.iter().find(|(own, ..)| own == name).copied()).collect();
     let Some(given) = given else { return Ok(None) };

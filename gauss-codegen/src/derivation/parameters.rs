@@ -9,7 +9,7 @@ use crate::emit::{Derived, in_states};
 use crate::kernel;
 use crate::mass_laws::{Datum, Group, InertiaRule, InertiaRules, MassLaw, MassRule};
 use crate::mechanics::{Coordinate, QuantityValues};
-use crate::parameters::{Check, Given, Parameter, Parameters, Rule, Table, Warning, WarningRule};
+use crate::parameters::{Check, Given, Parameter, Parameters, Rule, TableClause, Warning, WarningRule};
 use crate::program::{ArgumentKind, Results};
 use crate::terms::{self, Field, FunctionKind, LawKind, Role, Shape, UserFunction};
 use crate::translate::{DragMatrix, FieldPart, Law};
@@ -73,12 +73,12 @@ pub fn parameters<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> R
 }
 
 /// The table that a function is.
-fn table(function: &UserFunction) -> Option<Table> {
+fn table(function: &UserFunction) -> Option<TableClause> {
     let FunctionKind::Table(terms::Table { axes, values, joined }) = &function.kind else { return None };
     // Tokens are written with spaces between them: `aero :: LIFT`.
     let path = |tokens: &TokenStream| tokens.to_string().split_whitespace().collect::<String>();
     let axes = axes.iter().map(|axis| path(&axis.path)).collect();
-    Some(Table { name: function.name.unraw().to_string(), axes, values: path(values), joined: *joined })
+    Some(TableClause { name: function.name.unraw().to_string(), axes, values: path(values), joined: *joined })
 }
 
 /// The parts that a field has, with the axes of each.

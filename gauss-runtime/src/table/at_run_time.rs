@@ -25,7 +25,7 @@ const NEAR: usize = 3;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
-    /// Of fewer than three variables the last ones have one number.
+    /// Numbers along each axis; of fewer than three variables the last ones have one.
     axes: [Vec<f64>; 3],
     /// Values and slopes of each point, as of a `Grid`.
     points: Vec<f64>,

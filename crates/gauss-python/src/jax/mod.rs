@@ -224,7 +224,7 @@ fn parameters(kernel: &dyn AnyKernel) -> Vec<(usize, &'static str, Vec<usize>)> 
     fields.filter_map(of_field).collect()
 }
 
-/// Of each column of `by_parameters` the number of its field, and its place there.
+/// The field of each column of `by_parameters`, by its number, and the place there.
 fn columns(kernel: &dyn AnyKernel) -> Vec<Option<(usize, usize)>> {
     let scene = kernel.scene();
     scene.parameters().iter().map(|name| scene.description().place_of(name)).collect()
