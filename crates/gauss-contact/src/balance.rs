@@ -23,20 +23,25 @@ pub struct ContactBalance {
     pub contacts: f64,
     /// Energy that impacts took away.
     pub impacts: f64,
+    /// Energy that jumps of the state gave, by events of the run ([`ContactRun::then`](crate::ContactRun::then)).
+    pub jumps: f64,
 }
 
 impl ContactBalance {
     /// Energy that did not come from anywhere.
     #[must_use]
     pub fn residual(&self) -> f64 {
-        self.energy - self.supplied - self.contacts + self.impacts
+        self.energy - self.supplied - self.contacts + self.impacts - self.jumps
     }
 }
 
 impl fmt::Display for ContactBalance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { energy, supplied, contacts, impacts } = self;
+        let Self { energy, supplied, contacts, impacts, jumps } = self;
         write!(f, "energy {energy:+.6e} = supplied {supplied:+.6e}, contacts {contacts:+.6e}, impacts −{impacts:.6e}")?;
+        if *jumps != 0.0 {
+            write!(f, ", jumps {jumps:+.6e}")?;
+        }
         write!(f, ", residual {:+.1e}", self.residual())
     }
 }
@@ -75,6 +80,7 @@ impl<K: ContactSystem<Scalar = f64> + ForcedSystem> ContactTrajectory<'_, K> {
             }
         }
         let kernel = self.segments[0].system.kernel;
+        balance.jumps = self.state_jumps.iter().map(|jump| jump.energy(kernel)).sum();
         balance.energy = kernel.energy(last.t, &last.q, &last.z) - kernel.energy(first.t, &first.q, &first.z);
         Ok(balance)
     }

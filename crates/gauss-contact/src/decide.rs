@@ -74,6 +74,8 @@ pub(crate) struct Instant<'k, K: ContactSystem> {
     pub(crate) modes: Vec<Mode<K::Scalar>>,
     pub(crate) fired: Option<Watched>,
     pub(crate) first: bool,
+    /// Whether an event of the user has made the state jump: slips that had ended may go on.
+    pub(crate) jumped: bool,
     /// Whether a contact that slides into Painlevé's paradox is stopped by an impulse.
     pub(crate) jams: bool,
 }
@@ -191,7 +193,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
             resting: contacts.clone().map(rests).collect(),
             leaves,
             slides,
-            stuck: contacts.clone().map(|i| !struck && (stuck(i) || jammed == Some(i))).collect(),
+            stuck: contacts.clone().map(|i| !(struck || self.jumped) && (stuck(i) || jammed == Some(i))).collect(),
             still,
             slow: scales.rest(),
         };

@@ -35,6 +35,13 @@ pub enum ContactErrorKind {
         /// The gap.
         gap: f64,
     },
+    /// An event of the run makes the state jump to a gap that is negative by more than rounding.
+    JumpPenetrates {
+        /// The number of the event.
+        event: usize,
+        /// The gap.
+        gap: f64,
+    },
     /// A coefficient of restitution outside [0, 1], or not a number.
     InvalidRestitution {
         /// e.
@@ -274,6 +281,9 @@ impl ContactErrorKind {
     fn of_gaps(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NegativeGap { gap } => write!(f, "the gap starts at {gap:e}; it must not be negative"),
+            Self::JumpPenetrates { event, gap } => {
+                write!(f, "the jump of event {event} (from 0) leaves the gap at {gap:e}; it must not be negative")
+            }
             Self::Penetration { gap } => {
                 write!(
                     f,
@@ -295,9 +305,11 @@ impl ContactErrorKind {
 impl fmt::Display for ContactErrorKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NegativeGap { .. } | Self::Penetration { .. } | Self::Projection(_) | Self::Strikes { .. } => {
-                self.of_gaps(f)
-            }
+            Self::NegativeGap { .. }
+            | Self::JumpPenetrates { .. }
+            | Self::Penetration { .. }
+            | Self::Projection(_)
+            | Self::Strikes { .. } => self.of_gaps(f),
             Self::InvalidRestitution { restitution } => {
                 write!(f, "the coefficient of restitution is {restitution}; it must be between 0 and 1")
             }

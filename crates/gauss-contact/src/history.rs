@@ -109,6 +109,40 @@ impl<K: ContactSystem> fmt::Debug for Passage<K> {
     }
 }
 
+/// A jump of the state by an event that the run was given: see [`ContactRun::then`](crate::ContactRun::then).
+#[non_exhaustive]
+pub struct StateJump<K: ContactSystem> {
+    /// The number of the event, as that of a [`Passage`].
+    pub number: usize,
+    /// The state before it.
+    pub before: Sample<K>,
+    /// The state after it, on the constraints, before contacts act on it: an impact that it makes comes next.
+    pub after: Sample<K>,
+}
+
+impl<K: ContactSystem> Clone for StateJump<K> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<K: ContactSystem> Copy for StateJump<K> {}
+
+impl<K: ContactSystem> fmt::Debug for StateJump<K> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { number, before, after } = self;
+        f.debug_struct("StateJump").field("number", number).field("before", before).field("after", after).finish()
+    }
+}
+
+impl<K: ContactSystem> StateJump<K> {
+    /// The energy that it gives, kinetic and potential.
+    pub fn energy(&self, kernel: &K) -> K::Scalar {
+        let [before, after] = [self.before, self.after].map(|Sample { t, q, z, .. }| kernel.energy(t, &q, &z));
+        after - before
+    }
+}
+
 /// One solution of the laws: at an impact, or where modes are chosen.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]

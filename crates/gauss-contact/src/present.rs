@@ -48,7 +48,7 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
         let jams = false;
         let (q, z) = at_rest(kernel, t, (&q.renormalise(), z), &(made.input)(t, q, z));
         let rates = kernel.contact_rates(t, &q, &z);
-        let mut instant = Instant { kernel, t, q, z, modes, fired: None, first: true, jams };
+        let mut instant = Instant { kernel, t, q, z, modes, fired: None, first: true, jumped: false, jams };
         instant.decide(&mut scales, &mut made)?;
         if let Some(impact) = made.solves.iter().find(|solve| solve.impact) {
             let struck: Vec<usize> = impact.residuals.iter().map(|(contact, _)| *contact).collect();

@@ -8,7 +8,7 @@ use gauss_runtime::integrate::{RunRecord, Sample};
 use crate::changeover::{ChangingTrajectory, RunPart};
 use crate::dense::value;
 use crate::error::{ContactError, ContactErrorKind};
-use crate::history::Passage;
+use crate::history::{Passage, StateJump};
 use crate::mode::Mode;
 use crate::sensors::ContactForces;
 use crate::steps::SteppedRun;
@@ -33,6 +33,9 @@ pub trait ContactRecord<'k, K: ContactSystem>: RunRecord<K, Error = ContactError
     /// The states in which functions that the run was given passed through zero, in order of time.
     fn passages(&self) -> Vec<Passage<K>>;
 
+    /// The jumps of the state by events that the run was given, in order of time.
+    fn state_jumps(&self) -> Vec<StateJump<K>>;
+
     /// The function that ended the run, by its number; `None` where it went on to the end of the interval.
     fn stopped_by(&self) -> Option<usize>;
 }
@@ -54,7 +57,9 @@ impl<K: ContactSystem> RunRecord<K> for ContactTrajectory<'_, K> {
     }
 
     fn jumps(&self) -> Vec<f64> {
-        let mut times: Vec<f64> = self.events().iter().map(|event| event.time).collect();
+        let jumps = self.state_jumps().iter().map(|jump| value(jump.before.t));
+        let mut times: Vec<f64> = self.events().iter().map(|event| event.time).chain(jumps).collect();
+        times.sort_by(f64::total_cmp);
         times.dedup();
         times
     }
@@ -71,6 +76,10 @@ impl<'k, K: ContactSystem> ContactRecord<'k, K> for ContactTrajectory<'k, K> {
 
     fn passages(&self) -> Vec<Passage<K>> {
         Self::passages(self).to_vec()
+    }
+
+    fn state_jumps(&self) -> Vec<StateJump<K>> {
+        Self::state_jumps(self).to_vec()
     }
 
     fn stopped_by(&self) -> Option<usize> {
@@ -109,6 +118,10 @@ impl<'k, K: ContactSystem<Scalar = f64>> ContactRecord<'k, K> for SteppedRun<'k,
 
     fn passages(&self) -> Vec<Passage<K>> {
         self.passages.clone()
+    }
+
+    fn state_jumps(&self) -> Vec<StateJump<K>> {
+        self.state_jumps.clone()
     }
 
     fn stopped_by(&self) -> Option<usize> {
@@ -170,6 +183,10 @@ impl<'k, K: ContactSystem<Scalar = f64>> ContactRecord<'k, K> for ChangingTrajec
 
     fn passages(&self) -> Vec<Passage<K>> {
         self.parts().iter().flat_map(|part| part.record().passages()).collect()
+    }
+
+    fn state_jumps(&self) -> Vec<StateJump<K>> {
+        self.parts().iter().flat_map(|part| part.record().state_jumps()).collect()
     }
 
     fn stopped_by(&self) -> Option<usize> {

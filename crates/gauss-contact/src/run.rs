@@ -8,12 +8,14 @@ use core::ops::Range;
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::contact::ContactSystem;
-use gauss_runtime::integrate::drive::event::{Events, NoEvents, Watched as Watching};
+use gauss_runtime::integrate::drive::event::{Events, NoEvents};
+use gauss_runtime::integrate::drive::run::Jumps;
 use gauss_runtime::integrate::drive::simulation::NoControl;
-use gauss_runtime::integrate::drive::task::Unscheduled;
+use gauss_runtime::integrate::drive::task::SegmentEvents;
 use gauss_runtime::integrate::drive::tolerance::Tolerance;
 use gauss_runtime::integrate::{
     Adaptive, Control, Crossing, Feedback, InputSource, IntegrationErrorKind, NoInput, Sample, Simulation,
+    SystemProblem,
 };
 use gauss_runtime::real::Real;
 use gauss_runtime::system::GaussSystem;
@@ -21,8 +23,9 @@ use gauss_runtime::system::GaussSystem;
 use crate::decide::{Instant, Scales};
 use crate::dense::value;
 use crate::error::{ContactError, ContactErrorKind};
-use crate::history::{Passage, SampledGap};
+use crate::history::Passage;
 use crate::impact::Impact;
+use crate::jumps::{self, Record};
 use crate::mode::{InMode, Least, Mode, slip, tangents};
 use crate::moving::in_time;
 use crate::problem::InModeProblem;
@@ -96,38 +99,6 @@ impl<'k, K: ContactSystem, C, I, E> ContactRun<'k, K, C, I, E> {
         ContactRun { kernel, control, input, settings, events }
     }
 
-    /// Finds the states in which a function of time and state passes through zero, between impacts or by one. They are
-    /// numbered in the order of these calls and of [`until`](Self::until), from 0, and are found in
-    /// [`ContactTrajectory::passages`]. How they are found between impacts, and which are missed, is told where those
-    /// of [`Simulation`] are: [`event`](gauss_runtime::integrate::drive::event).
-    pub fn event<G>(self, crossing: Crossing, function: G) -> ContactRun<'k, K, C, I, Watching<E, G>>
-    where
-        G: Fn(K::Scalar, &K::Configuration, &K::Speeds) -> K::Scalar,
-    {
-        self.watch(crossing, false, function)
-    }
-
-    /// Ends the run at the first such state, which is then its last sample; [`ContactTrajectory::stopped_by`] tells
-    /// whether it came to that.
-    pub fn until<G>(self, crossing: Crossing, function: G) -> ContactRun<'k, K, C, I, Watching<E, G>>
-    where
-        G: Fn(K::Scalar, &K::Configuration, &K::Speeds) -> K::Scalar,
-    {
-        self.watch(crossing, true, function)
-    }
-
-    /// Events that another front has gathered, in the place of those so far; they must not change the state.
-    #[doc(hidden)]
-    pub fn events_by<F>(self, events: F) -> ContactRun<'k, K, C, I, F> {
-        let Self { kernel, control, input, settings, .. } = self;
-        ContactRun { kernel, control, input, settings, events }
-    }
-
-    fn watch<G>(self, crossing: Crossing, ends: bool, function: G) -> ContactRun<'k, K, C, I, Watching<E, G>> {
-        let Self { kernel, control, input, settings, events } = self;
-        ContactRun { kernel, control, input, settings, events: Watching::after(events, crossing, ends, function) }
-    }
-
     /// The law of impacts.
     pub fn law(mut self, law: Impact) -> Self {
         self.settings.law = law;
@@ -173,7 +144,7 @@ impl<'k, K: ContactSystem, C, I, E> ContactRun<'k, K, C, I, E> {
     where
         C: Control<InMode<'k, K>> + Clone + 'k,
         I: InputSource<K> + 'k,
-        E: Events<InMode<'k, K>>,
+        E: Events<K>,
     {
         match self.attempt(q0, z0, interval) {
             (trajectory, None) => Ok(trajectory),
@@ -191,7 +162,7 @@ impl<'k, K: ContactSystem, C, I, E> ContactRun<'k, K, C, I, E> {
     where
         C: Control<InMode<'k, K>> + Clone + 'k,
         I: InputSource<K> + 'k,
-        E: Events<InMode<'k, K>>,
+        E: Events<K>,
     {
         let (run, input) = self.parted();
         run.attempt_with(with_holds(input), None, (q0, z0), interval)
@@ -226,7 +197,7 @@ impl<'k, K: ContactSystem, C, E> ContactRun<'k, K, C, NoInput, E> {
     ) -> (ContactTrajectory<'k, K>, Option<ContactError>)
     where
         C: Control<InMode<'k, K>> + Clone + 'k,
-        E: Events<InMode<'k, K>>,
+        E: Events<K>,
     {
         let Self { kernel, control, settings, events, .. } = self;
         let scales = Scales::new(settings.tolerance::<InMode<'k, K>>(&control), settings.law, interval.start);
@@ -239,6 +210,7 @@ impl<'k, K: ContactSystem, C, E> ContactRun<'k, K, C, NoInput, E> {
             settings,
             events,
             end: interval.end,
+            jumps: Jumps::new::<K::Scalar>(value(interval.start), value(interval.end)),
             piles,
             used: 0,
             moving: in_time(kernel, &q0, &interval),
@@ -263,6 +235,8 @@ struct Driver<'k, K: ContactSystem, C, E> {
     /// The events of the user.
     events: E,
     end: K::Scalar,
+    /// Jumps by events of the user, as they follow each other.
+    jumps: Jumps,
     /// More than so many events within so long a time pile up.
     piles: Option<(usize, f64)>,
     /// Steps so far, rejected ones included.
@@ -297,60 +271,87 @@ impl<'k, K, C, E> Driver<'k, K, C, E>
 where
     K: ContactSystem,
     C: Control<InMode<'k, K>> + Clone + 'k,
-    E: Events<InMode<'k, K>>,
+    E: Events<K>,
 {
     fn go(&mut self, (t, q, z): (K::Scalar, K::Configuration, K::Speeds)) -> Result<(), ContactError> {
         self.check_start(t, &q, &z)?;
         sampling::begin::<K, E>(&mut self.events, self.holds.is_some(), (t, self.end), self.settings.steps)?;
         let (modes, jams) = (vec![Mode::Open; self.kernel.contacts().len()], self.settings.jams);
-        let mut instant = Instant { kernel: self.kernel, t, q, z, modes, fired: None, first: true, jams };
+        let mut instant =
+            Instant { kernel: self.kernel, t, q, z, modes, fired: None, first: true, jumped: false, jams };
         loop {
-            let before = instant.z;
             let now = (instant.t, &instant.q, &instant.z);
-            let (until, held) = sampling::tick(&mut self.events, self.kernel, now, (None, self.end))?;
+            let (until, held) = match self.made.stopped_by {
+                None => sampling::tick(&mut self.events, self.kernel, now, (None, self.end))?,
+                Some(_) => (self.end, None),
+            };
             held.iter().zip(&self.holds).for_each(|(held, holds)| holds.borrow_mut().push((value(now.0), *held)));
-            instant.decide(&mut self.scales, &mut self.made)?;
-            if !instant.first {
-                self.led_over(&before, &instant);
-            }
+            self.decide(&mut instant)?;
             // An event over which an impact has led may have ended the run.
             let until = if value(self.end) < value(until) { self.end } else { until };
-            let stop = self.segment(&instant, until)?;
+            let (stop, here) = self.segment(&instant, until)?;
             let fired = if let Stop::Contact(fired) = stop { Some(fired) } else { None };
             let Some(last) = self.made.last() else { return Ok(()) };
             let goes_on = value(last.t) < value(self.end) && value(last.t) == value(until);
-            instant = Instant { t: last.t, q: last.q, z: last.z, fired, first: false, ..instant };
-            if self.made.stopped_by.is_some() {
+            instant = Instant { t: last.t, q: last.q, z: last.z, fired, first: false, jumped: false, ..instant };
+            let jumps = self.jump(&mut instant, here)?;
+            if self.made.stopped_by.is_some() && !jumps {
                 return Ok(());
             }
-            instant.fired = fired.or_else(|| self.touches(&instant));
+            instant.fired = instant.fired.or_else(|| if instant.jumped { None } else { self.touches(&instant) });
             match instant.fired {
                 Some(fired) => self.count(value(last.t), fired)?,
-                None if goes_on => {}
+                None if goes_on || jumps => {}
                 None => return Ok(()),
             }
         }
     }
 
-    /// Events of the user over whose zeros an impact has led.
-    fn led_over(&mut self, before: &K::Speeds, Instant { t, q, z, .. }: &Instant<'k, K>) {
-        let (mut passed, mut ends, mut number) = (Vec::new(), None, 0);
-        self.events.each(&mut |function, mark| {
-            if mark.passes(value(function(*t, q, before)), value(function(*t, q, z))) {
-                passed.push(number);
-                ends = ends.or(mark.ends_the_run().then_some(number));
+    /// Brings the state over an instant: impacts and modes, events of the user over whose zeros an impact has led, and
+    /// again where one of them makes the state jump.
+    fn decide(&mut self, instant: &mut Instant<'k, K>) -> Result<(), ContactError> {
+        if !E::ANY {
+            return instant.decide(&mut self.scales, &mut self.made);
+        }
+        loop {
+            let (first, z) = (instant.first, instant.z);
+            instant.decide(&mut self.scales, &mut self.made)?;
+            let mut passed = Vec::new();
+            if !first {
+                let Self { events, made, .. } = self;
+                let mut record = Record::of(&mut made.passages, &mut made.state_jumps, &mut made.stopped_by);
+                let after = instant.sample();
+                passed = record.led_over(events, (&Sample { z, ..after }, &after), &[]);
+                self.ends_where_stopped(instant.t);
             }
-            number += 1;
-        });
-        if passed.is_empty() {
-            return;
+            if !self.jump(instant, passed)? {
+                return Ok(());
+            }
         }
-        let sample = Sample { t: *t, q: *q, z: *z, p: self.kernel.momentum(*t, q, z) };
-        self.made.passages.extend(passed.into_iter().map(|number| Passage { number, sample }));
-        if ends.is_some() {
-            // What follows is the state after the impact alone.
-            (self.made.stopped_by, self.end) = (ends, *t);
+    }
+
+    /// The jumps of events of the user at an instant; whether there are any.
+    fn jump(&mut self, instant: &mut Instant<'k, K>, here: Vec<usize>) -> Result<bool, ContactError> {
+        if here.is_empty() {
+            return Ok(false);
         }
+        let Self { kernel, events, jumps, made, .. } = self;
+        let record = Record::of(&mut made.passages, &mut made.state_jumps, &mut made.stopped_by);
+        let input = |t: K::Scalar, q: &K::Configuration, z: &K::Speeds| (made.input)(t, q, z);
+        let problem = SystemProblem::new(*kernel).input_from(Feedback(input));
+        let Some((after, changed)) = jumps::all(events, &problem, (here, &instant.sample()), jumps, record)? else {
+            return Ok(false);
+        };
+        if changed {
+            instant.jump_to(&after, &self.scales, &mut self.made);
+        }
+        self.ends_where_stopped(instant.t);
+        Ok(true)
+    }
+
+    /// What follows an event that ends the run is the state after it alone.
+    fn ends_where_stopped(&mut self, t: K::Scalar) {
+        self.end = if self.made.stopped_by.is_some() { t } else { self.end };
     }
 
     fn check_start(&self, t: K::Scalar, q: &K::Configuration, z: &K::Speeds) -> Result<(), ContactError> {
@@ -396,8 +397,8 @@ where
         t - value(segments[first].trajectory.first().t) < span && last.iter().any(|contact| *contact != last[0])
     }
 
-    /// One segment, with what ended it.
-    fn segment(&mut self, from: &Instant<'k, K>, until: K::Scalar) -> Result<Stop, ContactError> {
+    /// One segment, with what ended it, and the events of the user at its end.
+    fn segment(&mut self, from: &Instant<'k, K>, until: K::Scalar) -> Result<(Stop, Vec<usize>), ContactError> {
         let system = InMode::with(self.kernel, &from.modes, self.least(from));
         let problem = InModeProblem::new(system.clone(), Rc::clone(&self.made.input), Rc::clone(&self.moving));
         let witnesses = self.witnesses(from, &problem);
@@ -407,8 +408,9 @@ where
             let bound = GapBound::of(&witness, &sampled);
             (move |t: K::Scalar, q: &K::Configuration, z: &K::Speeds| witness.value(t, q, z), bound)
         });
-        let users = Events::<InMode<'k, K>>::count(&self.events);
-        let simulation = Simulation::of(problem).control(self.control.clone()).events_by(Unscheduled(&mut self.events));
+        let users = self.events.count();
+        let events = SegmentEvents::<K, E>::of(&mut self.events);
+        let simulation = Simulation::of(problem).control(self.control.clone()).events_by(events);
         let simulation = simulation.every(self.settings.every);
         let mut simulation = simulation.until_each_bounded(Crossing::Falling, functions.collect());
         if let Some(limit) = self.settings.steps {
@@ -418,10 +420,12 @@ where
         let (last, end) = (*trajectory.last(), trajectory.last().t);
         self.used += trajectory.summary().steps + trajectory.summary().rejected;
         let passed = trajectory.events().iter().filter(|event| event.number < users);
-        self.made.passages.extend(passed.map(|event| Passage::of(event.number, &event.sample)));
-        self.keep_sampled(&sampled.borrow(), value(end));
+        self.made.passages.extend(passed.clone().map(|event| Passage::of(event.number, &event.sample)));
+        self.made.keep_sampled(&sampled.borrow(), value(end));
         let stopped = trajectory.stopped_by();
-        self.made.stopped_by = self.made.stopped_by.or(stopped.filter(|n| *n < users));
+        let at_end = passed.filter(|event| stopped.is_some() && value(event.sample.t) == value(end));
+        let here: Vec<usize> = at_end.map(|event| event.number).collect();
+        self.made.stopped_by = self.made.stopped_by.or(jumps::first_end(&mut self.events, &here));
         self.made.segments.push(Segment { system, trajectory });
         if let Some(error) = error {
             let grazes = |event: usize, rate| ContactError {
@@ -443,7 +447,7 @@ where
             });
         }
         self.check_end(&from.modes, (end, &last.q, &last.z))?;
-        Ok(stopped.and_then(|n| n.checked_sub(users)).map_or(Stop::End, |n| Stop::Contact(watched[n])))
+        Ok((stopped.and_then(|n| n.checked_sub(users)).map_or(Stop::End, |n| Stop::Contact(watched[n])), here))
     }
 
     /// The slips that have no direction of their own in a segment from here.
@@ -458,17 +462,6 @@ where
         let rounding =
             from.sizes(&self.scales).of_rate.into_iter().zip(grows).map(|(at_start, grows)| [at_start, grows]);
         Least { rest: self.scales.rest(), rounding: rounding.collect(), start: value(*t) }
-    }
-
-    /// Keeps the times in which gaps were sampled alone, up to the end of a segment.
-    fn keep_sampled(&mut self, sampled: &[SampledGap], end: f64) {
-        for &gap in sampled.iter().filter(|gap| gap.start < end) {
-            let gap = SampledGap { end: gap.end.min(end), ..gap };
-            match self.made.sampled.iter_mut().rev().find(|last| last.contact == gap.contact) {
-                Some(last) if last.end == gap.start => last.end = gap.end,
-                _ => self.made.sampled.push(gap),
-            }
-        }
     }
 
     /// The event on which the end of a run falls to the resolution of its time: a gap that closes, a slip that ends.

@@ -7,42 +7,12 @@ use core::cell::{Cell, RefCell};
 use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::integrate::drive::event::Events;
 use gauss_runtime::integrate::drive::interval;
-use gauss_runtime::integrate::drive::schedule::Scheduled;
-use gauss_runtime::integrate::drive::task::Task;
-use gauss_runtime::integrate::{InputSource, IntegrationErrorKind, Sample, SamplingMistake};
+use gauss_runtime::integrate::{InputSource, IntegrationErrorKind, Sample};
 use gauss_runtime::real::Real;
 
 use crate::dense::value;
 use crate::error::{ContactError, ContactErrorKind};
-use crate::mode::InMode;
 use crate::trajectory::InputOf;
-
-/// A mode has the states of its system.
-impl<'k, K: ContactSystem, C> Scheduled<InMode<'k, K>> for Task<K, C>
-where
-    Self: Scheduled<K>,
-{
-    fn begin(&mut self, start: K::Scalar) -> Result<(), SamplingMistake> {
-        Scheduled::<K>::begin(self, start)
-    }
-
-    fn period(&self) -> f64 {
-        Scheduled::<K>::period(self)
-    }
-
-    fn tick(&mut self, now: &Sample<InMode<'k, K>>) -> Result<(), SamplingMistake> {
-        let Sample { t, q, z, p, .. } = *now;
-        Scheduled::<K>::tick(self, &Sample { t, q, z, p })
-    }
-
-    fn next(&self) -> K::Scalar {
-        Scheduled::<K>::next(self)
-    }
-
-    fn added_to(&self, others: Option<K::Input>) -> K::Input {
-        Scheduled::<K>::added_to(self, others)
-    }
-}
 
 fn error<T: Real>(t: T, kind: IntegrationErrorKind) -> ContactError {
     ContactError { contact: None, time: value(t), kind: ContactErrorKind::Sampling(kind) }
@@ -52,7 +22,7 @@ fn error<T: Real>(t: T, kind: IntegrationErrorKind) -> ContactError {
 ///
 /// # Errors
 /// The errors of [`interval::begin`].
-pub(crate) fn begin<'k, K: ContactSystem + 'k, E: Events<InMode<'k, K>>>(
+pub(crate) fn begin<K: ContactSystem, E: Events<K>>(
     events: &mut E,
     holds: bool,
     (start, end): (K::Scalar, K::Scalar),
@@ -69,7 +39,7 @@ pub(crate) fn begin<'k, K: ContactSystem + 'k, E: Events<InMode<'k, K>>>(
 ///
 /// # Errors
 /// An input that is not finite.
-pub(crate) fn tick<'k, K: ContactSystem + 'k, E: Events<InMode<'k, K>>>(
+pub(crate) fn tick<K: ContactSystem, E: Events<K>>(
     events: &mut E,
     kernel: &K,
     (t, q, z): (K::Scalar, &K::Configuration, &K::Speeds),

@@ -9,7 +9,7 @@ use gauss_runtime::real::Real;
 
 use crate::dense::value;
 use crate::error::{ContactError, ContactErrorKind};
-use crate::history::{ContactEvent, Passage, SampledGap, SolveRecord};
+use crate::history::{ContactEvent, Passage, SampledGap, SolveRecord, StateJump};
 use crate::mode::{InMode, Mode};
 use crate::sensors::ContactForces;
 
@@ -53,6 +53,7 @@ pub struct ContactTrajectory<'k, K: ContactSystem> {
     pub(crate) solves: Vec<SolveRecord>,
     pub(crate) sampled: Vec<SampledGap>,
     pub(crate) passages: Vec<Passage<K>>,
+    pub(crate) state_jumps: Vec<StateJump<K>>,
     pub(crate) stopped_by: Option<usize>,
     pub(crate) input: InputOf<'k, K>,
 }
@@ -65,8 +66,20 @@ fn sample<K: ContactSystem>(sample: &Sample<InMode<'_, K>>) -> Sample<K> {
 impl<'k, K: ContactSystem> ContactTrajectory<'k, K> {
     /// Before the first segment.
     pub(crate) fn begun(input: InputOf<'k, K>) -> Self {
-        let (segments, events, solves) = (Vec::new(), Vec::new(), Vec::new());
-        Self { segments, events, solves, sampled: Vec::new(), passages: Vec::new(), stopped_by: None, input }
+        let (segments, events, solves, sampled) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (passages, state_jumps) = (Vec::new(), Vec::new());
+        Self { segments, events, solves, sampled, passages, state_jumps, stopped_by: None, input }
+    }
+
+    /// Keeps the times in which gaps were sampled alone, up to the end of a segment.
+    pub(crate) fn keep_sampled(&mut self, sampled: &[SampledGap], end: f64) {
+        for &gap in sampled.iter().filter(|gap| gap.start < end) {
+            let gap = SampledGap { end: gap.end.min(end), ..gap };
+            match self.sampled.iter_mut().rev().find(|last| last.contact == gap.contact) {
+                Some(last) if last.end == gap.start => last.end = gap.end,
+                _ => self.sampled.push(gap),
+            }
+        }
     }
 
     /// The segments in order; none where the run ended before its first step.
@@ -95,6 +108,13 @@ impl<'k, K: ContactSystem> ContactTrajectory<'k, K> {
     #[must_use]
     pub fn passages(&self) -> &[Passage<K>] {
         &self.passages
+    }
+
+    /// The jumps of the state by events that the run was given ([`ContactRun::then`](crate::ContactRun::then)), in order
+    /// of time.
+    #[must_use]
+    pub fn state_jumps(&self) -> &[StateJump<K>] {
+        &self.state_jumps
     }
 
     /// The function that ended the run ([`ContactRun::until`](crate::ContactRun::until)), by its number; `None` where

@@ -32,18 +32,6 @@ struct Given {
 }
 
 impl Given {
-    /// Refuses jumps in runs with contacts.
-    fn without_jumps_among_contacts(&self) -> PyResult<()> {
-        let touches = matches!(self.control, Control::ContactEvents(..) | Control::ContactSteps(..));
-        let jumps = self.watched.iter().any(|event| matches!(event.effect, given::GivenEffect::Jumps(..)));
-        if touches && jumps {
-            return Err(PyTypeError::new_err(
-                "jumps of one's own are those of runs without contacts: end the run by `until` and begin another",
-            ));
-        }
-        Ok(())
-    }
-
     /// Runs it.
     fn run(&self, py: Python<'_>, kernel: &Kernel, calls: &Calls) -> PyResult<Outcome> {
         let kernel = kernel.kernel();
@@ -157,7 +145,6 @@ impl Kernel {
             times: times.map(|times| given::times_within(times, interval)).transpose()?,
             limit: max_steps,
         };
-        given.without_jumps_among_contacts()?;
         // Last of all, so that no bar is shown for a run that is refused.
         let calls = Calls::new(Progress::of(progress, interval, "s")?);
         let run = given.run(py, self, &calls).map(|outcome| Run::new(scene, outcome, kinds));

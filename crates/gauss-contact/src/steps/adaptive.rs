@@ -14,19 +14,18 @@ use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::integrate::drive::event::{Events, NoEvents};
 use gauss_runtime::integrate::problem::state::TangentOf;
-use gauss_runtime::integrate::{InputSource, NoInput};
+use gauss_runtime::integrate::{InputSource, NoInput, Sample};
 use gauss_runtime::real::Real;
 
 use crate::error::{ContactError, ContactErrorKind};
-use crate::mode::{InMode, Mode};
-
-use crate::sampling;
+use crate::mode::Mode;
+use crate::{jumps, sampling};
 
 use super::kept::Kept;
 use super::made::{StepSample, StepStatistics, SteppedRun};
-use super::passing::look;
+use super::passing::{Passing, Verdict as Seen};
 use super::report::StepReport;
-use super::run::ContactSteps;
+use super::run::{ContactSteps, held, problem};
 use super::stepper::ContactStepper;
 
 /// The order of steps in which contacts stay as they are.
@@ -100,7 +99,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> AdaptiveContactSteps<'k, K, I, E>
     ) -> Result<SteppedRun<'k, K>, ContactError>
     where
         I: InputSource<K>,
-        E: Events<InMode<'k, K>>,
+        E: Events<K>,
     {
         match self.attempt(q0, z0, interval) {
             (made, None) => Ok(made),
@@ -117,7 +116,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> AdaptiveContactSteps<'k, K, I, E>
     ) -> (SteppedRun<'k, K>, Option<ContactError>)
     where
         I: InputSource<K>,
-        E: Events<InMode<'k, K>>,
+        E: Events<K>,
     {
         let mut made = SteppedRun::begun(self.steps.kernel, (interval.start, q0, z0));
         let error = self.go((q0, z0), interval, &mut made).err();
@@ -145,60 +144,32 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> AdaptiveContactSteps<'k, K, I, E>
     }
 
     fn go(
-        mut self,
-        (q0, z0): (K::Configuration, K::Speeds),
+        self,
+        start: (K::Configuration, K::Speeds),
         interval: Range<f64>,
         made: &mut SteppedRun<'k, K>,
     ) -> Result<(), ContactError>
     where
         I: InputSource<K>,
-        E: Events<InMode<'k, K>>,
+        E: Events<K>,
     {
         self.steps.check_every(interval.start)?;
         self.check(&interval)?;
-        let mut stepper = self.steps.stepper(interval.start, q0, z0)?;
+        let Self { steps, relative, absolute, shortest, limit } = self;
+        let (steps, events) = steps.parted();
+        let steps = AdaptiveContactSteps { steps, relative, absolute, shortest, limit };
+        let stepper = steps.stepper((interval.start, start.0, start.1))?;
+        let (lengths, passing) = (Lengths::new(steps.steps.h, shortest), Passing::new(interval.start, interval.end));
+        let mut on_way = OnWay { steps, events, stepper, lengths, passing, until: 0.0, end: interval.end, fresh: true };
+        on_way.go(interval.start, made)
+    }
+
+    /// At the start of a run, or after a jump.
+    fn stepper(&self, start: (f64, K::Configuration, K::Speeds)) -> Result<ContactStepper<'k, K>, ContactError> {
+        let mut stepper = self.steps.stepper(start)?;
         // A step that is made in parts does not differ from its halves where these are; impacts are made short anyway.
         stepper.accounts = false;
-        let (holds, whole) = (self.steps.input.held().is_some(), (interval.start, interval.end));
-        sampling::begin::<K, E>(&mut self.steps.events, holds, whole, Some(self.limit))?;
-        let mut until = self.steps.sample(&stepper, interval.end)?;
-        let mut lengths = Lengths::new(self.steps.h, self.shortest);
-        while stepper.t < interval.end {
-            let (before, statistics) = (stepper.kept(), &mut made.statistics);
-            if statistics.accepted + statistics.rejected >= self.limit {
-                return Err(stepper.error(None, ContactErrorKind::TooManySteps { limit: self.limit }));
-            }
-            let (h, last) = lengths.within(until - before.t);
-            let trial = self.trial(&mut stepper, (&before, statistics.accepted == 0), h);
-            let least = ROUNDINGS * f64::EPSILON * before.t.abs().max(h);
-            match lengths.judge(h, trial.as_ref().ok()) {
-                Verdict::Keep => {
-                    let trial = trial?;
-                    stepper.t = if last { until } else { before.t + h };
-                    stepper.report = StepReport { estimate: trial.estimate, ..trial.report };
-                    statistics.keep(&trial);
-                    let sample = StepSample::of(&stepper);
-                    part(&mut stepper);
-                    made.samples.push(sample);
-                    if look(&mut self.steps.events, made)? {
-                        return Ok(());
-                    }
-                    if last && stepper.t < interval.end {
-                        until = self.steps.sample(&stepper, interval.end)?;
-                    }
-                }
-                Verdict::Shorten if lengths.next >= least && lengths.next < h => {
-                    statistics.rejected += 1;
-                    stepper.restore(&before);
-                }
-                Verdict::Shorten => {
-                    stepper.restore(&before);
-                    trial?;
-                    return Err(stepper.error(None, ContactErrorKind::StepTooSmall { step: h }));
-                }
-            }
-        }
-        Ok(())
+        Ok(stepper)
     }
 
     /// A step as a whole and in halves; the stepper is at the end of these.
@@ -211,16 +182,16 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> AdaptiveContactSteps<'k, K, I, E>
     where
         I: InputSource<K>,
     {
-        stepper.step(h, &self.steps.held(stepper, h))?;
+        stepper.step(h, &held(&self.steps.input, stepper, h))?;
         let (whole, in_parts) = (stepper.kept(), stepper.report.parts > 0);
         let (mut impacts, closure) = (stepper.report.impacts, stepper.report.closure);
         stepper.restore(before);
         let unheld = self.unheld(stepper, h);
-        let first = stepper.step(0.5 * h, &self.steps.held(stepper, 0.5 * h))?;
+        let first = stepper.step(0.5 * h, &held(&self.steps.input, stepper, 0.5 * h))?;
         let of_first = stepper.impulses;
         let middle = stepper.kept();
         let unheld = unheld.add_scaled(1.0, &self.unheld(stepper, h));
-        let second = stepper.step(0.5 * h, &self.steps.held(stepper, 0.5 * h))?;
+        let second = stepper.step(0.5 * h, &held(&self.steps.input, stepper, 0.5 * h))?;
         let end = stepper.kept();
         impacts += first.impacts + second.impacts;
         // At the start what contacts do is not known yet.
@@ -278,6 +249,123 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> AdaptiveContactSteps<'k, K, I, E>
             over(larger((end - whole).abs(), unheld.component(i)), before.abs().max(end.abs()))
         };
         (0..K::Speeds::DIM).map(speed).fold(places, larger)
+    }
+}
+
+/// A run on its way.
+struct OnWay<'k, K: ContactSystem<Scalar = f64>, I, E> {
+    steps: AdaptiveContactSteps<'k, K, I>,
+    events: E,
+    stepper: ContactStepper<'k, K>,
+    lengths: Lengths,
+    passing: Passing,
+    /// Until when controllers hold what they give.
+    until: f64,
+    end: f64,
+    /// Whether what contacts do is not known yet.
+    fresh: bool,
+}
+
+impl<'k, K: ContactSystem<Scalar = f64>, I: InputSource<K>, E: Events<K>> OnWay<'k, K, I, E> {
+    fn go(&mut self, start: f64, made: &mut SteppedRun<'k, K>) -> Result<(), ContactError> {
+        let (holds, limit) = (self.steps.steps.input.held().is_some(), self.steps.limit);
+        sampling::begin::<K, E>(&mut self.events, holds, (start, self.end), Some(limit))?;
+        self.sample()?;
+        while self.stepper.t < self.end {
+            let (before, statistics) = (self.stepper.kept(), &mut made.statistics);
+            if statistics.accepted + statistics.rejected >= limit {
+                return Err(self.stepper.error(None, ContactErrorKind::TooManySteps { limit }));
+            }
+            let (h, last) = self.lengths.within(self.until - before.t);
+            let trial = self.steps.trial(&mut self.stepper, (&before, self.fresh), h);
+            let least = ROUNDINGS * f64::EPSILON * before.t.abs().max(h);
+            match self.lengths.judge(h, trial.as_ref().ok()) {
+                Verdict::Keep => {
+                    self.stepper.t = if last { self.until } else { before.t + h };
+                    if self.keep(made, &before, (h, trial?))? {
+                        return Ok(());
+                    }
+                    if self.stepper.t == self.until && self.stepper.t < self.end {
+                        self.sample()?;
+                    }
+                }
+                Verdict::Shorten if self.lengths.next >= least && self.lengths.next < h => {
+                    statistics.rejected += 1;
+                    self.stepper.restore(&before);
+                }
+                Verdict::Shorten => {
+                    self.stepper.restore(&before);
+                    trial?;
+                    return Err(self.stepper.error(None, ContactErrorKind::StepTooSmall { step: h }));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Lets controllers sample where the steps are.
+    fn sample(&mut self) -> Result<(), ContactError> {
+        let Self { steps, events, stepper, end, .. } = self;
+        let now = (stepper.time(), stepper.configuration(), stepper.speeds());
+        let held = steps.steps.input.held();
+        self.until = sampling::tick(events, steps.steps.kernel, now, (held, *end))?.0;
+        Ok(())
+    }
+
+    /// Keeps a step but for what its events make of it; whether the run has ended.
+    fn keep(
+        &mut self,
+        made: &mut SteppedRun<'k, K>,
+        before: &Kept<K>,
+        (h, trial): (f64, Trial),
+    ) -> Result<bool, ContactError> {
+        let Self { steps, events, stepper, lengths, passing, fresh, .. } = self;
+        stepper.report = StepReport { estimate: trial.estimate, ..trial.report };
+        made.samples.push(StepSample::of(stepper));
+        part(stepper);
+        match passing.look(events, made)? {
+            Seen::On => made.statistics.keep(&trial),
+            Seen::Ended => {
+                made.statistics.keep(&trial);
+                return Ok(true);
+            }
+            Seen::TooLong => {
+                made.samples.pop();
+                made.statistics.rejected += 1;
+                stepper.restore(before);
+                lengths.next = NEARER * h;
+                return Ok(false);
+            }
+            Seen::Fails(kind) => {
+                made.samples.pop();
+                return Err(jumps::error(&problem(made.kernel, &steps.steps.input), &made.last_state(), kind));
+            }
+            Seen::Jumps(number, near) => {
+                let mut kept = trial;
+                let again = &mut |h: f64| {
+                    stepper.restore(before);
+                    kept = steps.trial(stepper, (before, *fresh), h)?;
+                    stepper.report = StepReport { estimate: kept.estimate, ..kept.report };
+                    Ok(StepSample::of(stepper))
+                };
+                let ended = passing.jump(
+                    (events, &problem(steps.steps.kernel, &steps.steps.input)),
+                    made,
+                    (number, near),
+                    again,
+                )?;
+                made.statistics.keep(&kept);
+                let Sample { t, q, z, .. } = made.last_state();
+                *stepper = steps.stepper((t, q, z))?;
+                if self.until - t <= ROUNDINGS * f64::EPSILON * self.until.abs() {
+                    stepper.t = self.until;
+                }
+                self.fresh = true;
+                return Ok(ended);
+            }
+        }
+        self.fresh = false;
+        Ok(false)
     }
 }
 

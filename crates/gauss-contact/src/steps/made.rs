@@ -10,7 +10,7 @@ use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::integrate::Sample;
 
 use crate::error::{ContactError, ContactErrorKind};
-use crate::history::Passage;
+use crate::history::{Passage, StateJump};
 use crate::mode::Mode;
 use crate::sensors::ContactForces;
 
@@ -52,6 +52,11 @@ impl<K: ContactSystem<Scalar = f64>> StepSample<K> {
         ContactForces::new(kernel, self.state.t, self.state.q, self.report.mean(&self.impulses))
     }
 
+    /// After a jump of the state, with the modes before it: a step of no length.
+    pub(super) fn jumped(state: Sample<K>, modes: Vec<Mode>) -> Self {
+        Self { state, impulses: K::ContactRows::zero(), modes, report: StepReport::default() }
+    }
+
     /// After a step.
     pub(crate) fn of(stepper: &ContactStepper<'_, K>) -> Self {
         let state = state(stepper);
@@ -91,13 +96,17 @@ pub struct SteppedRun<'k, K: ContactSystem<Scalar = f64>> {
     pub(crate) kernel: &'k K,
     /// The state before the first step.
     pub start: Sample<K>,
-    /// The ends of the steps; of steps with a tolerance each report has the estimate of its step.
+    /// The ends of the steps; of steps with a tolerance each report has the estimate of its step. Where an event makes
+    /// the state jump there are two at its time: the end of a step, and the state after the jump, with no impulses.
     pub samples: Vec<StepSample<K>>,
     /// Statistics of all steps with a tolerance.
     pub statistics: StepStatistics,
     /// The states in which functions that the run was given ([`ContactSteps::event`](super::ContactSteps::event))
     /// passed through zero, in order of time, as accurate as states between the ends of steps are.
     pub passages: Vec<Passage<K>>,
+    /// The jumps of the state by events that the run was given ([`ContactSteps::then`](super::ContactSteps::then)), in
+    /// order of time.
+    pub state_jumps: Vec<StateJump<K>>,
     /// The function that ended the run, by its number; `None` where it went on to the end of the interval.
     pub stopped_by: Option<usize>,
     /// Modes before the first step.
@@ -146,10 +155,10 @@ impl<'k, K: ContactSystem<Scalar = f64>> SteppedRun<'k, K> {
         let start = Sample { t, q, z, p: kernel.momentum(t, &q, &z) };
         let (samples, passages, statistics) = (Vec::new(), Vec::new(), StepStatistics::default());
         let open = vec![Mode::Open; kernel.contacts().len()];
-        Self { kernel, start, samples, statistics, passages, stopped_by: None, open }
+        Self { kernel, start, samples, statistics, passages, state_jumps: Vec::new(), stopped_by: None, open }
     }
 
-    /// The state at a time; where a step ends there, its end. Between the ends of steps it is as accurate as these are,
+    /// The state at a time; where a step ends there, its end, where the state jumps, the one after it. Between the ends of steps it is as accurate as these are,
     /// and the gap of a closed contact, zero at both, is off by as much. In a step with an impact speeds jump at half
     /// of it, as the step itself has it: when the impact is, is not known.
     ///
@@ -157,6 +166,10 @@ impl<'k, K: ContactSystem<Scalar = f64>> SteppedRun<'k, K> {
     /// `OutsideRun` where the run does not cover the time.
     pub fn at(&self, t: f64) -> Result<Sample<K>, ContactError> {
         let step = self.step_at(t)?;
+        let later = self.samples.partition_point(|step| step.state.t <= t);
+        if let Some(last) = later.checked_sub(1).map(|last| &self.samples[last]).filter(|last| last.state.t == t) {
+            return Ok(last.state);
+        }
         let Some(after) = self.samples.get(step) else { return Ok(self.start) };
         Ok(between(self.kernel, self.before(step), after, t))
     }
@@ -188,17 +201,26 @@ impl<'k, K: ContactSystem<Scalar = f64>> SteppedRun<'k, K> {
         Ok(self.samples.get(self.step_at(t)?).map_or(&self.open, |step| &step.modes))
     }
 
-    /// The middles of all steps with an impact: where [`at`](Self::at) has speeds jump.
+    /// The middles of all steps with an impact, where [`at`](Self::at) has speeds jump, and the times of jumps by events.
     #[must_use]
     pub fn jumps(&self) -> Vec<f64> {
         let strikes = |(_, step): &(usize, &StepSample<K>)| step.report.impacts > 0;
         let middle = |(n, step): (usize, &StepSample<K>)| half(self.before(n).t, step.state.t);
-        self.samples.iter().enumerate().filter(strikes).map(middle).collect()
+        let jumps = self.state_jumps.iter().map(|jump| jump.before.t);
+        let mut times: Vec<f64> = self.samples.iter().enumerate().filter(strikes).map(middle).chain(jumps).collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        times
     }
 
     /// The state before a step.
-    fn before(&self, step: usize) -> &Sample<K> {
+    pub(super) fn before(&self, step: usize) -> &Sample<K> {
         step.checked_sub(1).and_then(|last| self.samples.get(last)).map_or(&self.start, |last| &last.state)
+    }
+
+    /// The last state.
+    pub(super) fn last_state(&self) -> Sample<K> {
+        *self.before(self.samples.len())
     }
 
     /// The number of the step that a time is in, or that ends there; of the start the first one.

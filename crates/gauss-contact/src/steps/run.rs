@@ -3,22 +3,50 @@
 use core::ops::Range;
 
 use gauss_runtime::contact::ContactSystem;
-use gauss_runtime::integrate::drive::event::{Events, NoEvents, Watched};
-use gauss_runtime::integrate::{Crossing, Feedback, InputSource, NoInput};
+use gauss_runtime::integrate::drive::event::{Events, JumpFunction, NoEvents, Watched};
+use gauss_runtime::integrate::{Crossing, Feedback, InputSource, NoInput, Problem, Sample, SystemProblem};
 
 use crate::error::{ContactError, ContactErrorKind};
-use crate::mode::InMode;
-
-use crate::sampling;
+use crate::{jumps, sampling};
 
 use super::made::{StepSample, SteppedRun};
-use super::passing::look;
+use super::passing::{Passing, Verdict};
 use super::relaxed::StepLaw;
 use super::report::StepScheme;
 use super::stepper::ContactStepper;
 
 /// Roundings of a time within which an instant is the end of a step.
 const ROUNDINGS: f64 = 16.0;
+/// Part of a step that is tried in its place where it is too long to show where a jump has led.
+const SHORTER: f64 = 0.25;
+
+/// The motion without contacts, as jumps see it.
+pub(super) fn problem<'k, K: ContactSystem, I: InputSource<K>>(
+    kernel: &'k K,
+    input: &'k I,
+) -> impl Problem<System = K> + use<'k, K, I> {
+    let input = move |t: K::Scalar, q: &K::Configuration, z: &K::Speeds| input.input(t, q, z);
+    SystemProblem::new(kernel).input_from(Feedback(input))
+}
+
+/// How far a step of a run has come.
+enum Reached {
+    /// To where it was to end.
+    Target,
+    /// To a jump, or not as far after one.
+    Before,
+    /// To the end of the run.
+    End,
+}
+
+/// The input that a step of this length holds.
+pub(super) fn held<K: ContactSystem<Scalar = f64>, I: InputSource<K>>(
+    input: &I,
+    stepper: &ContactStepper<'_, K>,
+    length: f64,
+) -> K::Input {
+    input.input(stepper.t + 0.5 * length, &stepper.q, &stepper.z)
+}
 
 /// A run in steps in preparation: that of [`contact_steps`](crate::WithContacts::contact_steps) of a
 /// [`Simulation`](gauss_runtime::integrate::Simulation).
@@ -84,17 +112,25 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
         self.watch(crossing, true, function)
     }
 
-    /// Events that another front has gathered, in the place of those so far; they must not change the state.
+    /// Events that another front has gathered, in the place of those so far.
     #[doc(hidden)]
     pub fn events_by<F>(self, events: F) -> ContactSteps<'k, K, I, F> {
-        let Self { kernel, h, input, scheme, law, tolerance, every, limit, .. } = self;
-        ContactSteps { kernel, h, input, events, scheme, law, tolerance, every, limit }
+        self.with_events(|_| events)
     }
 
     fn watch<G>(self, crossing: Crossing, ends: bool, function: G) -> ContactSteps<'k, K, I, Watched<E, G>> {
+        self.with_events(|events| Watched::after(events, crossing, ends, function))
+    }
+
+    /// The run without its events, and these.
+    pub(super) fn parted(self) -> (ContactSteps<'k, K, I>, E) {
         let Self { kernel, h, input, events, scheme, law, tolerance, every, limit } = self;
-        let events = Watched::after(events, crossing, ends, function);
-        ContactSteps { kernel, h, input, events, scheme, law, tolerance, every, limit }
+        (ContactSteps { kernel, h, input, events: NoEvents, scheme, law, tolerance, every, limit }, events)
+    }
+
+    fn with_events<F>(self, change: impl FnOnce(E) -> F) -> ContactSteps<'k, K, I, F> {
+        let Self { kernel, h, input, events, scheme, law, tolerance, every, limit } = self;
+        ContactSteps { kernel, h, input, events: change(events), scheme, law, tolerance, every, limit }
     }
 
     /// The most steps before the run is given up; without this there are as many as the interval takes.
@@ -134,7 +170,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
     ) -> Result<SteppedRun<'k, K>, ContactError>
     where
         I: InputSource<K>,
-        E: Events<InMode<'k, K>>,
+        E: Events<K>,
     {
         match self.attempt(q0, z0, interval) {
             (made, None) => Ok(made),
@@ -151,7 +187,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
     ) -> (SteppedRun<'k, K>, Option<ContactError>)
     where
         I: InputSource<K>,
-        E: Events<InMode<'k, K>>,
+        E: Events<K>,
     {
         let mut made = SteppedRun::begun(self.kernel, (interval.start, q0, z0));
         let error = self.go((q0, z0), interval, &mut made).err();
@@ -166,7 +202,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
     ) -> Result<(), ContactError>
     where
         I: InputSource<K>,
-        E: Events<InMode<'k, K>>,
+        E: Events<K>,
     {
         let Range { start, end } = interval;
         self.check_every(start)?;
@@ -179,7 +215,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
         let whole = count as u64;
         let count = whole + u64::from(count > whole as f64);
         let h = (end - start) / count as f64;
-        let mut stepper = self.stepper(start, q0, z0)?;
+        let (mut stepper, mut passing) = (self.stepper((start, q0, z0))?, Passing::new(start, end));
         sampling::begin::<K, E>(&mut self.events, self.input.held().is_some(), (start, end), self.limit)?;
         let (mut until, mut steps) = (self.sample(&stepper, end)?, 0);
         for n in 1..=count {
@@ -196,16 +232,15 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
                 let rounding = ROUNDINGS * f64::EPSILON * end_of_step.abs().max(start.abs());
                 let is_cut = E::SAMPLED && rest > rounding;
                 length = if is_cut { until - stepper.t } else { length };
-                stepper.step(length, &self.held(&stepper, length))?;
-                stepper.t = if E::SAMPLED && rest >= -rounding { until } else { end_of_step };
-                made.samples.push(StepSample::of(&stepper));
-                if look(&mut self.events, made)? {
+                let target = if E::SAMPLED && rest >= -rounding { until } else { end_of_step };
+                let reached = self.advance(&mut stepper, &mut passing, (length, target), made)?;
+                if matches!(reached, Reached::End) {
                     return Ok(());
                 }
                 if E::SAMPLED && stepper.t == until && until < end {
                     until = self.sample(&stepper, end)?;
                 }
-                if !is_cut {
+                if matches!(reached, Reached::Target) && !is_cut {
                     break;
                 }
                 length = end_of_step - stepper.t;
@@ -214,19 +249,83 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
         Ok(())
     }
 
-    /// The input that a step of this length holds.
-    pub(super) fn held(&self, stepper: &ContactStepper<'k, K>, length: f64) -> K::Input
+    /// One step of a run, of a length with which it comes to a time, or to an event before that which makes the state
+    /// jump.
+    fn advance(
+        &mut self,
+        stepper: &mut ContactStepper<'k, K>,
+        passing: &mut Passing,
+        (length, target): (f64, f64),
+        made: &mut SteppedRun<'k, K>,
+    ) -> Result<Reached, ContactError>
     where
         I: InputSource<K>,
+        E: Events<K>,
     {
-        self.input.input(stepper.t + 0.5 * length, &stepper.q, &stepper.z)
+        let (before, mut tried) = (E::ANY.then(|| stepper.kept()), length);
+        let problem = problem(self.kernel, &self.input);
+        loop {
+            stepper.step(tried, &held(&self.input, stepper, tried))?;
+            if tried == length {
+                stepper.t = target;
+            }
+            made.samples.push(StepSample::of(stepper));
+            let verdict = passing.look(&mut self.events, made)?;
+            let (Some(before), Verdict::TooLong | Verdict::Fails(_) | Verdict::Jumps(..)) = (&before, &verdict) else {
+                return Ok(match verdict {
+                    Verdict::Ended => Reached::End,
+                    _ if tried == length => Reached::Target,
+                    _ => Reached::Before,
+                });
+            };
+            match verdict {
+                Verdict::Jumps(number, near) => {
+                    let again = &mut |length: f64| {
+                        stepper.restore(before);
+                        stepper.step(length, &held(&self.input, stepper, length))?;
+                        Ok(StepSample::of(stepper))
+                    };
+                    let ended = passing.jump((&mut self.events, &problem), made, (number, near), again)?;
+                    if ended {
+                        return Ok(Reached::End);
+                    }
+                    return self.restart(stepper, made, target);
+                }
+                Verdict::TooLong => {
+                    made.samples.pop();
+                    stepper.restore(before);
+                    tried *= SHORTER;
+                }
+                Verdict::Fails(kind) => {
+                    made.samples.pop();
+                    return Err(jumps::error(&problem, &made.last_state(), kind));
+                }
+                Verdict::On | Verdict::Ended => {}
+            }
+        }
+    }
+
+    /// Begins anew at the last state of a run, after a jump.
+    fn restart(
+        &self,
+        stepper: &mut ContactStepper<'k, K>,
+        made: &SteppedRun<'k, K>,
+        target: f64,
+    ) -> Result<Reached, ContactError> {
+        let Sample { t, q, z, .. } = made.last_state();
+        *stepper = self.stepper((t, q, z))?;
+        let is_there = target - t <= ROUNDINGS * f64::EPSILON * target.abs();
+        if is_there {
+            stepper.t = target;
+        }
+        Ok(if is_there { Reached::Target } else { Reached::Before })
     }
 
     /// Lets controllers sample where the steps are; until when they hold what they give.
-    pub(super) fn sample(&mut self, stepper: &ContactStepper<'k, K>, end: f64) -> Result<f64, ContactError>
+    fn sample(&mut self, stepper: &ContactStepper<'k, K>, end: f64) -> Result<f64, ContactError>
     where
         I: InputSource<K>,
-        E: Events<InMode<'k, K>>,
+        E: Events<K>,
     {
         let now = (stepper.time(), stepper.configuration(), stepper.speeds());
         Ok(sampling::tick(&mut self.events, self.kernel, now, (self.input.held(), end))?.0)
@@ -240,14 +339,35 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
         Err(ContactError { contact: None, time, kind: ContactErrorKind::EveryState { every: self.every } })
     }
 
-    /// At the start of a run.
+    /// At the start of a run, or after a jump.
     pub(super) fn stepper(
         &self,
-        start: f64,
-        q: K::Configuration,
-        z: K::Speeds,
+        (t, q, z): (f64, K::Configuration, K::Speeds),
     ) -> Result<ContactStepper<'k, K>, ContactError> {
-        let stepper = ContactStepper::new(self.kernel, start, q, z)?;
+        let stepper = ContactStepper::new(self.kernel, t, q, z)?;
         Ok(stepper.scheme(self.scheme).law(self.law).tolerance(self.tolerance))
+    }
+}
+
+impl<'k, K: ContactSystem<Scalar = f64>, I, E, G> ContactSteps<'k, K, I, Watched<E, G>> {
+    /// Changes the state at the event that was added last, as
+    /// [`Simulation::then`](gauss_runtime::integrate::Simulation::then) does. The step in which the event is ends there,
+    /// to a rounding of the time, and the next one begins with the state after the jump, as a run does: what the jump
+    /// closes further is an impact of that step. [`SteppedRun::state_jumps`] has the states before and after it.
+    ///
+    /// A jump that leaves a gap below zero ends the run with
+    /// [`JumpPenetrates`](ContactErrorKind::JumpPenetrates), one that does not lead back, or piles up, with the errors
+    /// of [`event`](gauss_runtime::integrate::drive::event). After a jump steps are as short as the next flight is,
+    /// where that would be over within one.
+    pub fn then<J: FnMut(&mut Sample<K>)>(self, jump: J) -> ContactSteps<'k, K, I, Watched<E, G, JumpFunction<J>>> {
+        self.with_events(|events| events.then(jump, false))
+    }
+
+    /// Changes the state as [`then`](Self::then) does, where the function may go on through zero.
+    pub fn then_through<J: FnMut(&mut Sample<K>)>(
+        self,
+        jump: J,
+    ) -> ContactSteps<'k, K, I, Watched<E, G, JumpFunction<J>>> {
+        self.with_events(|events| events.then(jump, true))
     }
 }

@@ -11,7 +11,7 @@ use super::causes::of_contacts;
 use super::contact_rows::{Touching, named, rows_of, unless_stopped};
 use super::outcome::{self, Happening, Outcome, Touched};
 use super::request::{Control, Request, looking};
-use super::watching::{input, of_numbers, watched};
+use super::watching::{input, jump, of_numbers, watched};
 
 /// A run from event to event.
 ///
@@ -27,11 +27,14 @@ pub(super) fn run<S: Touching>(
     };
     let control = looking(Adaptive::new(relative, absolute), request.input);
     let control = if largest.is_finite() { control.largest_step(largest) } else { control };
-    let stop = (unless_stopped(request), Crossing::Any, [true, false]);
+    let stop = (unless_stopped(request), Crossing::Any, [true, false, false]);
     let interval = request.interval.0..request.interval.1;
     let simulation = Simulation::new(system)
         .input(|t: f64, q: &S::Configuration, z: &S::Speeds| input::<S>(request, t, q, z))
-        .events_by(Each::of(watched::<S>(request).chain([stop])))
+        .events_by(
+            Each::of(watched::<S>(request).chain([stop]))
+                .then(|place, state: &mut Sample<S>| jump(request, place, state)),
+        )
         .control(control);
     let simulation = match request.limit {
         Some(limit) => simulation.max_steps(limit),
@@ -64,6 +67,7 @@ pub(super) fn run<S: Touching>(
 
 fn summary<S: Touching>(run: &ContactTrajectory<'_, S>) -> Summary {
     let mut all = Summary::default();
+    all.jumps = run.state_jumps().len() as u64;
     for segment in run.segments() {
         let summary = segment.trajectory().summary();
         all.steps += summary.steps;

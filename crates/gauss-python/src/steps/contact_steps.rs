@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::atomic::Ordering;
 
 use gauss_contact::{
-    ContactError, ContactSteps, InMode, Mode, Residual, StepLaw, StepReport, StepScheme, SteppedRun, WithContacts,
+    ContactError, ContactSteps, Mode, Residual, StepLaw, StepReport, StepScheme, SteppedRun, WithContacts,
 };
 use gauss_runtime::integrate::drive::each::Each;
 use gauss_runtime::integrate::drive::event::Events;
@@ -15,7 +15,7 @@ use super::causes::of_contacts;
 use super::contact_rows::{Touching, named, rows_of, unless_stopped};
 use super::outcome::{self, Happening, Outcome, Touched};
 use super::request::Request;
-use super::watching::{input, of_numbers, watched};
+use super::watching::{input, jump, of_numbers, watched};
 
 /// A run in steps of a length, or at most as long where there are tolerances.
 ///
@@ -28,10 +28,13 @@ pub(super) fn run<S: Touching>(
     (length, tolerances, scheme, law): (f64, Option<(f64, f64)>, StepScheme, StepLaw),
 ) -> Result<Outcome, String> {
     let interval = request.interval.0..request.interval.1;
-    let stop = (unless_stopped(request), Crossing::Any, [true, false]);
+    let stop = (unless_stopped(request), Crossing::Any, [true, false, false]);
     let simulation = Simulation::new(system)
         .input(|t: f64, q: &S::Configuration, z: &S::Speeds| input::<S>(request, t, q, z))
-        .events_by(Each::of(watched::<S>(request).chain([stop])));
+        .events_by(
+            Each::of(watched::<S>(request).chain([stop]))
+                .then(|place, state: &mut Sample<S>| jump(request, place, state)),
+        );
     let simulation = match request.limit {
         Some(limit) => simulation.max_steps(limit),
         None => simulation,
@@ -48,7 +51,8 @@ pub(super) fn run<S: Touching>(
     let interrupted = request.stop.load(Ordering::Relaxed);
     let rows = rows_of(system, request, &run)?;
     let mut summary = Summary::default();
-    (summary.steps, summary.rejected) = (run.samples.len() as u64, run.statistics.rejected);
+    (summary.jumps, summary.rejected) = (run.state_jumps.len() as u64, run.statistics.rejected);
+    summary.steps = run.samples.len() as u64 - summary.jumps;
     let last = run.samples.last().map_or(&run.start, |step| &step.state);
     Ok(Outcome {
         rows: rows.len(),
@@ -73,7 +77,7 @@ fn made<'k, S, I, E>(
 where
     S: Touching,
     I: InputSource<S>,
-    E: Events<InMode<'k, S>>,
+    E: Events<S>,
 {
     let steps = steps.scheme(scheme).law(law);
     match tolerances {

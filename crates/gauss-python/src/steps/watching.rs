@@ -21,17 +21,24 @@ pub(super) fn input<S: Moving>(request: &Request<'_>, t: f64, q: &S::Configurati
     }
 }
 
-/// All events, each with its direction, whether it ends the run, and whether its jump may let it go on.
+/// All events, each with its direction, whether it ends the run, whether the state jumps there, and whether it may go on
+/// after that.
 pub(super) fn watched<'a, S: Moving>(
     request: &'a Request<'_>,
-) -> impl Iterator<Item = (Watch<'a, S::Configuration, S::Speeds>, Crossing, [bool; 2])> {
-    let through = |until: &Until<'_>| matches!(until.effect, Effect::Jumps(_, true));
-    request.until.iter().map(move |until| (watch::<S>(until), until.crossing, [until.ends(), through(until)]))
+) -> impl Iterator<Item = (Watch<'a, S::Configuration, S::Speeds>, Crossing, [bool; 3])> {
+    let jumps = |until: &Until<'_>| match until.effect {
+        Effect::Jumps(_, through) => [true, through],
+        _ => [false; 2],
+    };
+    request.until.iter().map(move |until| {
+        let [jumps, through] = jumps(until);
+        (watch::<S>(until), until.crossing, [until.ends(), jumps, through])
+    })
 }
 
 /// Makes the jump of an event in a state; returns whether it did.
 pub(super) fn jump<S: Moving>(request: &Request<'_>, place: usize, state: &mut Sample<S>) -> bool {
-    let Effect::Jumps(function, _) = request.until[place].effect else { return false };
+    let Some(Effect::Jumps(function, _)) = request.until.get(place).map(|until| &until.effect) else { return false };
     let Some((q, z)) = function(state.t, &numbers_of(&state.q), &components(&state.z)) else { return false };
     // Numbers that are no state end the run: these have been looked at, or are those of a function that failed.
     // Numbers are put into the vectors that are there: of models at run time these know what q consists of.

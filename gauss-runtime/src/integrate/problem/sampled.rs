@@ -32,7 +32,7 @@ impl<S: GaussSystem, C: Controller<S> + ?Sized> Controller<S> for &mut C {
 
 /// A controller that is a closure.
 #[derive(Clone, Copy, Debug)]
-pub struct Law<G>(pub(in crate::integrate) G);
+pub struct Law<G>(pub G);
 
 impl<S: GaussSystem, G: FnMut(S::Scalar, &S::Configuration, &S::Speeds) -> S::Input> Controller<S> for Law<G> {
     fn sample(&mut self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Input {

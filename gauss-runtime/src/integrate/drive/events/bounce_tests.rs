@@ -283,8 +283,11 @@ fn lists_jump_as_single_events_do() {
         .adaptive(1e-9, 1e-9);
     let singly = singly.run(start().0, start().1, 0.0..9.0).expect("runs");
     let functions: [Function<'_, Particle>; 3] = [&floor, &gate, &far];
-    let marks =
-        [(Crossing::Falling, [false, false]), (Crossing::Rising, [false, true]), (Crossing::Any, [true, false])];
+    let marks = [
+        (Crossing::Falling, [false, true, false]),
+        (Crossing::Rising, [false, true, true]),
+        (Crossing::Any, [true, false, false]),
+    ];
     let all = functions.into_iter().zip(marks).map(|(function, (crossing, marks))| (function, crossing, marks));
     let jump = |place: usize, state: &mut Sample<Particle>| {
         match place {

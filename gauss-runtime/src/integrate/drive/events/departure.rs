@@ -99,9 +99,28 @@ impl RestAtZero {
     }
 }
 
+/// Whether a function changes with the configuration, where time and speeds stay: moved by half of its digits, every one
+/// of its components by itself.
+pub fn is_of_the_configuration<S: GaussSystem, P: Problem<System = S>>(
+    problem: &P,
+    function: Function<'_, S>,
+    lane: usize,
+    state: &State<S>,
+) -> bool {
+    let z = problem.speeds(state.t, &state.q, &state.y);
+    let at = |q: &S::Configuration| function(state.t, q, &z).lane(lane);
+    let here = at(&state.q);
+    let part = S::Scalar::from_f64(Real::sqrt(S::Scalar::EPSILON));
+    (0..TangentOf::<S>::DIM).any(|i| {
+        let mut sigma = TangentOf::<S>::zero();
+        sigma.set_component(i, part * (S::Scalar::one() + state.q.magnitudes(i)));
+        at(&state.q.retract(&sigma)) != here
+    })
+}
+
 /// Estimates the change of a function by rounding of time, configuration and speeds: the sum of its changes with each
 /// of them.
-pub(in crate::integrate) fn rounding<S: GaussSystem, P: Problem<System = S>>(
+pub fn rounding<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
     function: Function<'_, S>,
     lane: usize,
@@ -250,20 +269,6 @@ where
         if slope.is_finite() { slope } else { 0.0 }
     }
 
-    /// Whether a function changes with the configuration, where time and speeds stay: moved by half of its digits,
-    /// every one of its components by itself.
-    fn is_of_the_configuration(&self, function: Function<'_, S>, state: &State<S>) -> bool {
-        let z = self.problem.speeds(state.t, &state.q, &state.y);
-        let at = |q: &S::Configuration| function(state.t, q, &z).lane(self.made.lane);
-        let here = at(&state.q);
-        let part = S::Scalar::from_f64(Real::sqrt(S::Scalar::EPSILON));
-        (0..TangentOf::<S>::DIM).any(|i| {
-            let mut sigma = TangentOf::<S>::zero();
-            sigma.set_component(i, part * (S::Scalar::one() + state.q.magnitudes(i)));
-            at(&state.q.retract(&sigma)) != here
-        })
-    }
-
     /// Whether the jump of an event has led its function back, where it has to.
     pub(in crate::integrate) fn led_back(
         &self,
@@ -282,7 +287,7 @@ where
             return Err(IntegrationErrorKind::Zeno { event, interval: leaving.seen * self.duration() });
         }
         // What no velocity turns back, such as the time, is not meant to be.
-        if self.is_of_the_configuration(function, state) {
+        if is_of_the_configuration(self.problem, function, self.made.lane, state) {
             return Err(IntegrationErrorKind::NotTurnedBack { event, before, after });
         }
         Ok(())

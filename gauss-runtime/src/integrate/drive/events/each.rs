@@ -54,12 +54,12 @@ impl<E, G, B> Each<E, G, B> {
 }
 
 impl<G> Each<NoEvents, G> {
-    /// A list in which each function has a direction of its own; whether it ends the run, and whether it may go on
-    /// through zero after its jump.
+    /// A list in which each function has a direction of its own; whether it ends the run, whether the state jumps
+    /// there, and whether it may go on through zero after that.
     #[doc(hidden)]
-    pub fn of(functions: impl IntoIterator<Item = (G, Crossing, [bool; 2])>) -> Self {
-        let marked = |(function, crossing, [terminal, through]): (G, Crossing, [bool; 2])| {
-            (function, None, Mark::new(crossing, terminal, through))
+    pub fn of(functions: impl IntoIterator<Item = (G, Crossing, [bool; 3])>) -> Self {
+        let marked = |(function, crossing, [terminal, jumps, through]): (G, Crossing, [bool; 3])| {
+            (function, None, Mark { jumps, ..Mark::new(crossing, terminal, through) })
         };
         Self { others: NoEvents, functions: functions.into_iter().map(marked).collect(), jump: NoJump }
     }

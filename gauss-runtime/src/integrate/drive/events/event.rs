@@ -55,7 +55,8 @@ use core::ops::Range;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::bounded::Bound;
 use crate::integrate::drive::control::Control;
-use crate::integrate::drive::departure::{Departure, RestAtZero, rounding};
+use crate::integrate::drive::departure::{Departure, RestAtZero};
+pub use crate::integrate::drive::departure::{is_of_the_configuration, rounding};
 use crate::integrate::drive::jump::differs;
 pub use crate::integrate::drive::jump::{Jump, JumpFunction, NoJump};
 use crate::integrate::drive::projection::consistent;
@@ -64,7 +65,7 @@ use crate::integrate::drive::watched::JumpApproach;
 pub use crate::integrate::drive::watched::{Events, Mark, NoEvents, Watched};
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, JumpMistake};
-use crate::integrate::problem::state::{State, TangentOf};
+use crate::integrate::problem::state::{Sample, State, TangentOf};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -168,7 +169,7 @@ where
     }
 
     /// The events, with the controllers that sample.
-    pub(in crate::integrate) fn events(&mut self) -> &mut E {
+    pub fn events(&mut self) -> &mut E {
         &mut self.events
     }
 
@@ -353,40 +354,8 @@ where
     /// has changed.
     fn jump(&mut self, number: usize, from: &State<S>) -> Result<Option<(State<S>, bool)>, IntegrationErrorKind> {
         let problem = self.problem;
-        let given = problem.sample(from);
-        let mut set = given;
-        if !self.events.jump(number, &mut set) {
-            return Ok(None);
-        }
-        let mistake = |mistake| Err(IntegrationErrorKind::InvalidJump { event: number, mistake });
-        if self.lanes.clone().any(|lane| set.t.lane(lane) != given.t.lane(lane)) {
-            return mistake(JumpMistake::Time);
-        }
-        if differs(&set.p, &given.p, &self.lanes, 0.0) {
-            let z = problem.speeds(from.t, &set.q, &problem.of_momentum(from.t, &set.q, &set.p));
-            // Half of the digits: what agrees in them was meant to.
-            let half = Real::sqrt(S::Scalar::EPSILON);
-            if differs(&set.z, &given.z, &self.lanes, 0.0) && differs(&set.z, &z, &self.lanes, half) {
-                return mistake(JumpMistake::SpeedsAndMomenta);
-            }
-            set.z = z;
-        } else if S::Scalar::DERIVATIVES {
-            // Momenta may be set to other derivatives at the same values.
-            let [set_to, was] =
-                [&set.p, &given.p].map(|p| problem.speeds(from.t, &set.q, &problem.of_momentum(from.t, &set.q, p)));
-            set.z = set.z.add_scaled(S::Scalar::one(), &set_to.add_scaled(-S::Scalar::one(), &was));
-        }
-        // The least change of a velocity counts: that of an axis which happens to lie level is meant as any other.
-        let touched = |a: &S::Speeds, b: &S::Speeds, lane| {
-            (0..S::Speeds::DIM).any(|i| a.component(i).lane(lane).to_bits() != b.component(i).lane(lane).to_bits())
-        };
-        let (increment, rounding) = (given.q.difference(&set.q), 64.0 * S::Scalar::EPSILON);
-        let changed = self.lanes.clone().any(|lane| {
-            let moved = (0..TangentOf::<S>::DIM).any(|i| increment.component(i).lane(lane).abs() > rounding);
-            moved || touched(&given.z, &set.z, lane) || touched(&given.p, &set.p, lane)
-        });
-        let (q, z) = consistent(problem, (&given, &set), &self.lanes)?;
-        Ok(Some((problem.state(from.t, q, &z), changed)))
+        let jumped = jump(&mut self.events, problem, (number, &problem.sample(from)), &self.lanes)?;
+        Ok(jumped.map(|((q, z), changed)| (problem.state(from.t, q, &z), changed)))
     }
 
     /// Reports the events over whose zeros a jump has led, each once, with what follows from them.
@@ -434,6 +403,53 @@ where
         });
         first
     }
+}
+
+/// Configuration and speeds after the jump of an event, on the constraints, and whether they are others; none where it
+/// has no jump.
+///
+/// # Errors
+/// [`IntegrationErrorKind::InvalidJump`]; a state that is not finite, or that constraints move farther than the jump.
+#[expect(clippy::type_complexity, reason = "a state as two things, with what is asked of it")]
+pub fn jump<S: GaussSystem, P: Problem<System = S>, E: Events<S>>(
+    events: &mut E,
+    problem: &P,
+    (number, given): (usize, &Sample<S>),
+    lanes: &Range<usize>,
+) -> Result<Option<((S::Configuration, S::Speeds), bool)>, IntegrationErrorKind> {
+    let mut set = *given;
+    if !events.jump(number, &mut set) {
+        return Ok(None);
+    }
+    let t = given.t;
+    let mistake = |mistake| Err(IntegrationErrorKind::InvalidJump { event: number, mistake });
+    if lanes.clone().any(|lane| set.t.lane(lane) != t.lane(lane)) {
+        return mistake(JumpMistake::Time);
+    }
+    let speeds = |q: &S::Configuration, p: &S::Speeds| problem.speeds(t, q, &problem.of_momentum(t, q, p));
+    if differs(&set.p, &given.p, lanes, 0.0) {
+        let z = speeds(&set.q, &set.p);
+        // Half of the digits: what agrees in them was meant to.
+        let half = Real::sqrt(S::Scalar::EPSILON);
+        if differs(&set.z, &given.z, lanes, 0.0) && differs(&set.z, &z, lanes, half) {
+            return mistake(JumpMistake::SpeedsAndMomenta);
+        }
+        set.z = z;
+    } else if S::Scalar::DERIVATIVES {
+        // Momenta may be set to other derivatives at the same values.
+        let [set_to, was] = [&set.p, &given.p].map(|p| speeds(&set.q, p));
+        set.z = set.z.add_scaled(S::Scalar::one(), &set_to.add_scaled(-S::Scalar::one(), &was));
+    }
+    // The least change of a velocity counts: that of an axis which happens to lie level is meant as any other.
+    let touched = |a: &S::Speeds, b: &S::Speeds, lane| {
+        (0..S::Speeds::DIM).any(|i| a.component(i).lane(lane).to_bits() != b.component(i).lane(lane).to_bits())
+    };
+    let (increment, rounding) = (given.q.difference(&set.q), 64.0 * S::Scalar::EPSILON);
+    let changed = lanes.clone().any(|lane| {
+        let moved = (0..TangentOf::<S>::DIM).any(|i| increment.component(i).lane(lane).abs() > rounding);
+        moved || touched(&given.z, &set.z, lane) || touched(&given.p, &set.p, lane)
+    });
+    Ok(Some((consistent(problem, (given, &set), lanes)?, changed)))
 }
 
 #[cfg(all(test, feature = "alloc"))]

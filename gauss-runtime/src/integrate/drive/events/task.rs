@@ -1,6 +1,7 @@
 //! When a controller samples, and when what it gives acts.
 
 use core::fmt;
+use core::marker::PhantomData;
 
 use alloc::collections::VecDeque;
 
@@ -23,7 +24,6 @@ enum Delay {
 }
 
 /// A controller with its instants.
-#[derive(Clone)]
 pub struct Task<S: GaussSystem, C> {
     controller: C,
     period: f64,
@@ -37,26 +37,37 @@ pub struct Task<S: GaussSystem, C> {
     pending: VecDeque<(S::Scalar, S::Input)>,
 }
 
+// Written by hand: deriving would ask the same of the system, which is only named here.
+impl<S: GaussSystem, C: Clone> Clone for Task<S, C> {
+    fn clone(&self) -> Self {
+        let (controller, pending) = (self.controller.clone(), self.pending.clone());
+        Self { controller, pending, ..*self }
+    }
+}
+
 impl<S: GaussSystem<Input: VectorSpace<S::Scalar>>, C> Task<S, C> {
     /// Without a delay.
-    pub(in crate::integrate) fn new(period: f64, controller: C) -> Self {
+    pub fn new(period: f64, controller: C) -> Self {
         let (zero, start) = (S::Input::zero(), S::Scalar::zero());
         let (delay, pending) = (Delay::Samples(0), VecDeque::new());
         Self { controller, period, delay, initially: zero, start, count: 0, now: zero, pending }
     }
 
     /// Acts after so much time.
-    pub(in crate::integrate) fn delayed(self, delay: f64) -> Self {
+    #[must_use]
+    pub fn delayed(self, delay: f64) -> Self {
         Self { delay: Delay::Time(delay), ..self }
     }
 
     /// Acts after so many samples.
-    pub(in crate::integrate) fn delayed_samples(self, samples: u32) -> Self {
+    #[must_use]
+    pub fn delayed_samples(self, samples: u32) -> Self {
         Self { delay: Delay::Samples(samples), ..self }
     }
 
     /// Sets the input that is held until the first sample acts.
-    pub(in crate::integrate) fn initially(self, input: S::Input) -> Self {
+    #[must_use]
+    pub fn initially(self, input: S::Input) -> Self {
         Self { initially: input, ..self }
     }
 
@@ -157,8 +168,10 @@ where
 /// Events, and a controller that samples.
 #[derive(Clone, Debug)]
 pub struct Controlled<E, K> {
-    pub(in crate::integrate) others: E,
-    pub(in crate::integrate) task: K,
+    /// The events.
+    pub others: E,
+    /// The controller.
+    pub task: K,
 }
 
 impl<E, K> Sealed for Controlled<E, K> {}
@@ -189,28 +202,41 @@ impl<S: GaussSystem, E: Events<S>, K: Scheduled<S>> Events<S> for Controlled<E, 
     }
 }
 
-/// Events without the controllers beside them, which a run has that is made of others.
+/// Events of one segment of a run that is made of segments: it ends at those whose jumps the run makes itself, and has
+/// none of the controllers beside them. The system `T` of a segment may be another one than that of the run, with the
+/// same states.
 #[derive(Debug)]
-pub struct Unscheduled<'e, E>(pub &'e mut E);
+pub struct SegmentEvents<'e, S, E> {
+    events: &'e mut E,
+    system: PhantomData<fn(S)>,
+}
 
-impl<E> Sealed for Unscheduled<'_, E> {}
+impl<'e, S, E> SegmentEvents<'e, S, E> {
+    /// Events of a run on a system.
+    pub fn of(events: &'e mut E) -> Self {
+        Self { events, system: PhantomData }
+    }
+}
 
-impl<S: GaussSystem, E: Events<S>> Events<S> for Unscheduled<'_, E> {
+impl<S, E> Sealed for SegmentEvents<'_, S, E> {}
+
+impl<S, T, E> Events<T> for SegmentEvents<'_, S, E>
+where
+    S: GaussSystem,
+    T: GaussSystem<Scalar = S::Scalar, Configuration = S::Configuration, Speeds = S::Speeds>,
+    E: Events<S>,
+{
     const ANY: bool = E::ANY;
 
     fn count(&self) -> usize {
-        self.0.count()
+        self.events.count()
     }
 
-    fn each(&mut self, visit: &mut dyn FnMut(Function<'_, S>, &mut Mark)) {
-        self.0.each(visit);
+    fn each(&mut self, visit: &mut dyn FnMut(Function<'_, T>, &mut Mark)) {
+        self.events.each(&mut |function, mark| mark.ending_at_jumps(|mark| visit(function, mark)));
     }
 
-    fn each_bounded(&mut self, visit: &mut Visit<'_, S>) {
-        self.0.each_bounded(visit);
-    }
-
-    fn jump(&mut self, number: usize, state: &mut Sample<S>) -> bool {
-        self.0.jump(number, state)
+    fn jump(&mut self, _: usize, _: &mut Sample<T>) -> bool {
+        false
     }
 }

@@ -14,6 +14,8 @@ use crate::system::GaussSystem;
 pub struct Mark {
     pub(super) crossing: Crossing,
     pub(super) terminal: bool,
+    /// Whether the state jumps there.
+    pub(super) jumps: bool,
     /// Whether its jump may let the function go on through zero.
     pub(super) through: bool,
     pub(super) value: f64,
@@ -49,6 +51,7 @@ impl Mark {
         Self {
             crossing,
             terminal,
+            jumps: false,
             through,
             value: 0.0,
             next: None,
@@ -67,16 +70,42 @@ impl Mark {
         self.terminal
     }
 
+    /// Whether the state jumps there.
+    #[must_use]
+    pub fn jumps(&self) -> bool {
+        self.jumps
+    }
+
+    /// Whether the function may go on through zero after a jump.
+    #[must_use]
+    pub fn may_go_on(&self) -> bool {
+        self.through
+    }
+
     /// Whether a jump from one value to another passes through zero as the event does.
     #[must_use]
     pub fn passes(&self, before: f64, after: f64) -> bool {
         self.crossing.between(before, after)
     }
 
+    /// Shows it as one that ends the run where its state jumps.
+    #[cfg(feature = "alloc")]
+    pub(super) fn ending_at_jumps(&mut self, show: impl FnOnce(&mut Self)) {
+        let terminal = self.terminal;
+        self.terminal |= self.jumps;
+        show(self);
+        self.terminal = terminal;
+    }
+
+    /// Notes that the run has made the jump, of another state than the one before it.
+    pub fn note_jump(&mut self) {
+        self.jumped = true;
+    }
+
     /// Before another run.
     #[cfg(feature = "alloc")]
     pub(in crate::integrate) fn renew(&mut self) {
-        *self = Self::new(self.crossing, self.terminal, self.through);
+        *self = Self { jumps: self.jumps, ..Self::new(self.crossing, self.terminal, self.through) };
     }
 }
 
@@ -179,7 +208,7 @@ impl<E, G> Watched<E, G> {
     #[doc(hidden)]
     pub fn then<J>(self, jump: J, through: bool) -> Watched<E, G, JumpFunction<J>> {
         let Self { others, function, mark, .. } = self;
-        Watched { others, function, jump: JumpFunction(jump), mark: Mark { through, ..mark } }
+        Watched { others, function, jump: JumpFunction(jump), mark: Mark { jumps: true, through, ..mark } }
     }
 }
 
