@@ -4,14 +4,15 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use gauss_runtime::integrate::drive::event::{Events, JumpFunction, NoEvents, Watched};
-use gauss_runtime::integrate::{Adaptive, Crossing, DEFAULT_LIMIT, Form, InputSource, Sample, SystemProblem, Taylor};
+use gauss_runtime::integrate::{Adaptive, Crossing, DEFAULT_LIMIT, Form, Sample, SystemProblem, Taylor};
 use gauss_runtime::simd::Packed;
 use gauss_runtime::system::GaussSystem;
 
 use crate::lanes::run::{InLanes, Runs};
 use crate::lanes::{BatchSystem, LaneControl, RunOutcome, SingleConfiguration, SingleSpeeds};
 use crate::packs::States;
-use crate::{Batch, Borrowed, Kernels};
+use crate::sampling::{Fed, LaneInput};
+use crate::{Batch, Kernels};
 
 /// Many runs over one interval, in lanes and on threads, each with steps and an end of its own.
 ///
@@ -123,7 +124,18 @@ impl<'k, K: ?Sized, F, I, C, E> Ensemble<'k, K, F, I, C, E> {
     }
 
     fn watch<D>(self, watched: impl FnOnce(E) -> D) -> Ensemble<'k, K, F, I, C, D> {
+        self.map_parts(|input| input, watched)
+    }
+
+    /// With another input and other events.
+    pub(crate) fn map_parts<J, D>(
+        self,
+        fed: impl FnOnce(I) -> J,
+        watched: impl FnOnce(E) -> D,
+    ) -> Ensemble<'k, K, F, J, C, D> {
         let Self { batch, control, events, limit, progress } = self;
+        let Batch { kernels, form, input } = batch;
+        let batch = Batch { kernels, form, input: fed(input) };
         Ensemble { batch, control, events: watched(events), limit, progress }
     }
 }
@@ -174,12 +186,12 @@ impl<'k, K: ?Sized, F, I, C, E> Ensemble<'k, K, F, I, C, E> {
     /// # Panics
     /// When there are fewer kernels than blocks.
     #[must_use = "runs may have failed"]
-    pub fn run<S>(&self, interval: Range<f64>, states: &mut States<S>) -> Vec<RunOutcome<S>>
+    pub fn run<S, Kind>(&self, interval: Range<f64>, states: &mut States<S>) -> Vec<RunOutcome<S>>
     where
         S: BatchSystem,
         K: Kernels<S>,
         F: Form<S>,
-        I: InputSource<S>,
+        I: LaneInput<S, Kind>,
         C: LaneControl<S>,
         E: Events<S> + Clone,
     {
@@ -196,12 +208,12 @@ impl<'k, K: ?Sized, F, I, C, E> Ensemble<'k, K, F, I, C, E> {
     /// When there are fewer kernels than blocks.
     #[cfg(feature = "rayon")]
     #[must_use = "runs may have failed"]
-    pub fn run_on_all_threads<S>(&self, interval: Range<f64>, states: &mut States<S>) -> Vec<RunOutcome<S>>
+    pub fn run_on_all_threads<S, Kind>(&self, interval: Range<f64>, states: &mut States<S>) -> Vec<RunOutcome<S>>
     where
         S: BatchSystem<Configuration: Packed<Single: Send> + Send, Speeds: Packed<Single: Send> + Send>,
         K: Kernels<S> + Sync,
         F: Form<S> + Sync,
-        I: InputSource<S> + Sync,
+        I: LaneInput<S, Kind> + Sync,
         C: LaneControl<S> + Sync,
         E: Events<S> + Clone + Sync,
     {
@@ -220,7 +232,7 @@ impl<'k, K: ?Sized, F, I, C, E> Ensemble<'k, K, F, I, C, E> {
     }
 
     /// The runs of some blocks, the number of the first of which is `block`.
-    fn carry<S>(
+    fn carry<S, Kind>(
         &self,
         interval: &Range<f64>,
         (count, block): (usize, usize),
@@ -230,19 +242,21 @@ impl<'k, K: ?Sized, F, I, C, E> Ensemble<'k, K, F, I, C, E> {
         S: BatchSystem,
         K: Kernels<S>,
         F: Form<S>,
-        I: InputSource<S>,
+        I: LaneInput<S, Kind>,
         C: LaneControl<S>,
         E: Events<S> + Clone,
     {
         let batch = &self.batch;
-        let problem =
-            SystemProblem { system: batch.kernels.of_block(block), form: batch.form, input: Borrowed(&batch.input) };
+        let input = Fed::<S, I, Kind> { input: &batch.input, room: I::room() };
+        let problem = SystemProblem { system: batch.kernels.of_block(block), form: batch.form, input };
+        let hold = |lane: usize, input: &S::Input| I::hold(&problem.input.room, lane, input);
         let in_lanes = InLanes {
             control: &self.control,
             problem: &problem,
             events: &self.events,
             times: (interval.start, interval.end),
             limit: self.limit,
+            hold: &hold,
         };
         let first = block * S::Scalar::WIDTH;
         let states = (count - first).min(q.len() * S::Scalar::WIDTH);

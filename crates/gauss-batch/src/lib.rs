@@ -80,6 +80,7 @@ mod ensemble;
 mod error;
 mod lanes;
 mod packs;
+mod sampling;
 
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -96,6 +97,7 @@ pub use ensemble::Ensemble;
 pub use error::BatchError;
 pub use lanes::{BatchSystem, Ended, EventState, LaneControl, RunError, RunOutcome, SingleConfiguration, SingleSpeeds};
 pub use packs::{Packs, States};
+pub use sampling::{Continuous, Held, LaneInput, LaneSamples, SampledInput};
 
 /// The kernels of a batch: one for all blocks, or a slice with one for each.
 pub trait Kernels<S> {

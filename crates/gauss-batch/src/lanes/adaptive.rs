@@ -279,7 +279,8 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
         let this = &mut memory.lanes[lane];
         this.lengths = StepLength::new(self.method.estimate_order(), problem.system().smoothness());
         (this.length, this.looked, this.rejected) = (first.min(memory.longest), 0.0, 0);
-        this.looks = Looks::new(self.input_changes, number(group.state.t, lane), group.span);
+        let span = number(group.end - group.state.t, lane);
+        this.looks = Looks::new(self.input_changes, number(group.state.t, lane), span);
         this.shorter = None;
         if core::mem::take(&mut this.floored) {
             memory.forget();

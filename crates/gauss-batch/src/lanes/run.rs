@@ -7,6 +7,7 @@ use gauss_runtime::configuration::Configuration;
 use gauss_runtime::integrate::drive::cause::{StopPlace, StopReason, cause};
 use gauss_runtime::integrate::drive::control::prepare;
 use gauss_runtime::integrate::drive::event::{Events, Outcome, Watch};
+use gauss_runtime::integrate::drive::interval;
 use gauss_runtime::integrate::drive::pace::Pace;
 use gauss_runtime::integrate::drive::run::Jumps;
 use gauss_runtime::integrate::drive::search::{StepEnds, StepSearch};
@@ -49,7 +50,7 @@ struct Running<'a, S: BatchSystem, P, C, E> {
 }
 
 /// Settings that all runs have in common.
-pub struct InLanes<'a, P, C, E> {
+pub struct InLanes<'a, S: BatchSystem, P, C, E> {
     /// The choice of steps.
     pub control: &'a C,
     /// The kernel, the form of its equations, the input.
@@ -60,11 +61,13 @@ pub struct InLanes<'a, P, C, E> {
     pub times: (f64, f64),
     /// The most steps of a run.
     pub limit: u64,
+    /// Holds an input in a lane, where controllers sample.
+    pub hold: &'a dyn Fn(usize, &S::Input),
 }
 
 /// Lanes with their runs.
 struct Lanes<'a, S: BatchSystem, P, C: LaneControl<S>, E> {
-    all: &'a InLanes<'a, P, C, E>,
+    all: &'a InLanes<'a, S, P, C, E>,
     group: Group<S>,
     memory: C::Memory,
     running: Vec<Option<Running<'a, S, P, C, E>>>,
@@ -72,7 +75,7 @@ struct Lanes<'a, S: BatchSystem, P, C: LaneControl<S>, E> {
     who: Vec<bool>,
 }
 
-impl<S, P, C, E> InLanes<'_, P, C, E>
+impl<S, P, C, E> InLanes<'_, S, P, C, E>
 where
     S: BatchSystem,
     P: Problem<System = S>,
@@ -188,6 +191,7 @@ where
         let here = self.group.state;
         let (mut t, mut configuration) = (here.t, here.q);
         let mut speeds = problem.speeds(t, &here.q, &here.y);
+        self.group.end.replace(lane, &Real::from_f64(self.all.times.1));
         t.replace(lane, &Real::from_f64(self.all.times.0));
         configuration.replace(lane, q);
         speeds.replace(lane, z);
@@ -223,26 +227,82 @@ where
             found: Vec::new(),
         };
         self.running[lane] = Some(running);
-        if self.group.span == 0.0 {
-            self.leave(lane, Ok(None), runs);
-        } else if let Err(kind) = self.begin(lane, all.limit) {
+        let begun = self.begin_sampling(lane).and_then(|()| self.sample(lane));
+        let outcome = match begun {
+            Ok(()) if self.group.span == 0.0 => return self.leave(lane, Ok(None), runs),
+            Ok(()) => self.begin(lane, all.limit),
+            Err(kind) => Err(kind),
+        };
+        if let Err(kind) = outcome {
             self.leave(lane, Err(kind), runs);
         }
     }
 
+    /// Checks the controllers of a run that begins.
+    fn begin_sampling(&mut self, lane: usize) -> Result<(), IntegrationErrorKind> {
+        let (all, Some(running)) = (self.all, &mut self.running[lane]) else { return Ok(()) };
+        if !E::SAMPLED {
+            return Ok(());
+        }
+        let interval = (S::Scalar::from_f64(all.times.0), S::Scalar::from_f64(all.times.1));
+        interval::begin(running.watch.events(), all.problem.held().is_some(), interval, all.limit)
+    }
+
+    /// Lets the controllers of a run sample where it is: what they hold, and until when, is in its lane.
+    fn sample(&mut self, lane: usize) -> Result<(), IntegrationErrorKind> {
+        let (all, Some(running)) = (self.all, &mut self.running[lane]) else { return Ok(()) };
+        if !E::SAMPLED {
+            return Ok(());
+        }
+        let State { t, q, y } = &self.group.state;
+        // Controllers see the state of their run in all lanes.
+        let here = State {
+            t: S::Scalar::repeat(&t.extract(lane)),
+            q: S::Configuration::repeat(&q.extract(lane)),
+            y: S::Speeds::repeat(&y.extract(lane)),
+        };
+        let (now, end) = (all.problem.sample(&here), S::Scalar::from_f64(all.times.1));
+        let (held, until) = interval::tick(running.watch.events(), &now, None, end)?;
+        if let Some(held) = held {
+            (all.hold)(lane, &held);
+        }
+        self.group.end.replace(lane, &until.extract(lane));
+        let state = self.group.state;
+        self.set(lane, &state)
+    }
+
+    /// A step has come to an instant of a controller, from which the run goes on as from a start.
+    fn instant(&mut self, lane: usize, runs: &mut dyn Runs<S>) {
+        let limit = self.all.limit;
+        let Some(running) = &mut self.running[lane] else { return };
+        let tries = running.summary.steps + running.summary.rejected;
+        running.pace = Pace::new(number(self.group.state.t, lane), limit.saturating_sub(tries));
+        let outcome = self.sample(lane).and_then(|()| self.begin_steps(lane, limit.saturating_sub(tries)));
+        if let Err(kind) = outcome {
+            self.leave(lane, Err(kind), runs);
+        }
+    }
+
+    /// Whether the end of a lane is that of its run.
+    fn is_whole(&self, lane: usize) -> bool {
+        !E::SAMPLED || number(self.group.end, lane) == self.all.times.1
+    }
+
     /// The first step of a run, or after a jump, is to come; so many are allowed.
     fn begin(&mut self, lane: usize, limit: u64) -> Result<(), IntegrationErrorKind> {
-        self.all.control.begin(self.all.problem, &self.group, (lane, limit), &mut self.memory).map_err(
-            |mut kind| {
-                // What was left of the limit says nothing to whoever set it.
-                if let IntegrationErrorKind::TooManySteps { limit } = &mut kind {
-                    *limit = self.all.limit;
-                }
-                kind
-            },
-        )?;
+        self.begin_steps(lane, limit)?;
         let Some(running) = &mut self.running[lane] else { return Ok(()) };
         if E::ANY { running.watch.begin(&self.group.state) } else { Ok(()) }
+    }
+
+    fn begin_steps(&mut self, lane: usize, limit: u64) -> Result<(), IntegrationErrorKind> {
+        self.all.control.begin(self.all.problem, &self.group, (lane, limit), &mut self.memory).map_err(|mut kind| {
+            // What was left of the limit says nothing to whoever set it.
+            if let IntegrationErrorKind::TooManySteps { limit } = &mut kind {
+                *limit = self.all.limit;
+            }
+            kind
+        })
     }
 
     /// A run has come to its end, by itself or by an event, or cannot go on.
@@ -303,8 +363,10 @@ where
                         running.summary.count(taken);
                         running.summary.steps += self.group.steps - 1;
                     }
-                    if last {
-                        self.leave(lane, Ok(None), runs);
+                    match (last, self.is_whole(lane)) {
+                        (true, true) => self.leave(lane, Ok(None), runs),
+                        (true, false) => self.instant(lane, runs),
+                        (false, _) => {}
                     }
                 }
             }
@@ -433,6 +495,9 @@ where
 
     /// After a jump a run goes on as from a start.
     fn go_on(&mut self, lane: usize, runs: &mut dyn Runs<S>) {
+        if let Err(kind) = self.sample(lane) {
+            return self.leave(lane, Err(kind), runs);
+        }
         let (t, left, limit) = (number(self.group.state.t, lane), self.group.left(lane), self.all.limit);
         let Some(running) = &mut self.running[lane] else { return };
         let tries = running.summary.steps + running.summary.rejected;
