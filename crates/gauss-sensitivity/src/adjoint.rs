@@ -10,7 +10,7 @@ use gauss_runtime::integrate::{IntegrationError, Problem, State};
 
 use crate::checkpoints::reverse;
 use crate::error::SensitivityError;
-use crate::forward::{advance, check_rate};
+use crate::forward::{advance, after_step, check_rate};
 use crate::mesh::{Mesh, initial};
 use crate::run::{At, Cost, Equations, Fed, Run, equations};
 use crate::states::{ComponentsOf, by_increments, in_numbers, numbers_of};
@@ -59,6 +59,8 @@ struct Back<'a, R: Run<P>, C, const P: usize> {
     adjoints: Adjoints,
     /// Derivatives of the cost by the components of q and by z where the way back has come to.
     by_state: Vec<f64>,
+    /// Its derivative by the time there, where that is the time of an event.
+    by_time: f64,
     /// Contribution of each instant to the cost.
     costs: Vec<f64>,
 }
@@ -66,7 +68,11 @@ struct Back<'a, R: Run<P>, C, const P: usize> {
 /// One step on the tape.
 struct Taking {
     start: Vec<Taped>,
+    /// The time at which it starts.
+    from: Taped,
+    /// Its end, after the jump where there is one.
     end: Vec<Taped>,
+    to: Taped,
     h: Taped,
     cost: Taped,
     /// The function that ends the run, with its value at the start of the step.
@@ -85,20 +91,27 @@ impl<R: Cost<P>, C: Steps, const P: usize> Back<'_, R, C, P> {
     /// Writes a step down.
     fn take(&mut self, state: &State<R::System<f64>>, n: usize) -> Result<Taking, SensitivityError> {
         let (recording, [from, to]) = (self.recording, [self.mesh.times[n], self.mesh.times[n + 1]]);
-        let ends = self.mesh.ended && n + 1 == self.mesh.steps();
+        let ends = self.mesh.is_event(n);
         self.problem.input.number = self.mesh.interval(n);
         recording.truncate(self.kept);
-        let start: State<R::System<Taped>> =
-            in_numbers(state, Taped::constant(from), |number| recording.variable(number));
-        let h = if ends { recording.variable(to - from) } else { Taped::constant(to - from) };
+        let moves = self.mesh.starts_at_event(n);
+        let from = if moves { recording.variable(from) } else { Taped::constant(from) };
+        let start: State<R::System<Taped>> = in_numbers(state, from, |number| recording.variable(number));
+        let h = match (ends, moves) {
+            (true, _) => recording.variable(to - from.value()),
+            (false, true) => Taped::constant(to) - from,
+            (false, false) => Taped::constant(to - from.value()),
+        };
         let end = self.steps.step(&self.problem, &start, &self.problem.rates(&start), h);
         let mut end = end.map_err(|kind| IntegrationError::at(&self.problem, &start, kind))?;
         // As a number of its own where the end does not move.
         end.t = if ends { start.t + h } else { Taped::constant(to) };
         let function = |state: &State<R::System<Taped>>| self.problem.input.until(state.t, &state.q, &state.y);
         let event = ends.then(|| (function(&end), function(&start).value()));
+        end = after_step(&self.problem, self.mesh, (n, end))?;
         let cost = self.cost(n + 1, &end);
-        Ok(Taking { start: numbers_of(&start).collect(), end: numbers_of(&end).collect(), h, cost, event })
+        let to = end.t;
+        Ok(Taking { start: numbers_of(&start).collect(), from, end: numbers_of(&end).collect(), to, h, cost, event })
     }
 
     /// From the end of a step to its start.
@@ -106,6 +119,7 @@ impl<R: Cost<P>, C: Steps, const P: usize> Back<'_, R, C, P> {
         let step = self.take(state, n)?;
         let mut seeds = vec![(step.cost, 1.0)];
         seeds.extend(step.end.iter().copied().zip(self.by_state.iter().copied()));
+        seeds.push((step.to, self.by_time));
         if let Some((function, before)) = step.event {
             // The end moves by −∂w/w′ when the function w changes by ∂w.
             let by_length = |seeds: &[(Taped, f64)]| {
@@ -122,6 +136,7 @@ impl<R: Cost<P>, C: Steps, const P: usize> Back<'_, R, C, P> {
         seeds.iter().for_each(|&(number, seed)| self.adjoints.add(number, seed));
         self.adjoints.sweep(self.recording, self.kept..self.recording.len());
         self.by_state = step.start.iter().map(|&number| self.adjoints.of(number)).collect();
+        self.by_time = if self.mesh.starts_at_event(n) { self.adjoints.of(step.from) } else { 0.0 };
         self.adjoints.truncate(self.kept);
         let finite = self.by_state.iter().all(|by| by.is_finite()) && step.cost.value().is_finite();
         if finite { Ok(()) } else { Err(SensitivityError::NonFinite { time: self.mesh.times[n] }) }
@@ -155,7 +170,8 @@ pub(crate) fn gradient<R: Cost<P>, C: Steps, const P: usize>(
     let first: Vec<Taped> = numbers_of(&taped).collect();
     let by_state = vec![0.0; first.len()];
     let costs = vec![0.0; mesh.instants()];
-    let mut way = Back { steps, mesh, recording, problem, kept: 0, adjoints: Adjoints::default(), by_state, costs };
+    let adjoints = Adjoints::default();
+    let mut way = Back { steps, mesh, recording, problem, kept: 0, adjoints, by_state, by_time: 0.0, costs };
     let at_start = way.cost(0, &taped);
     way.kept = recording.len();
     way.adjoints.add(at_start, 1.0);

@@ -19,8 +19,8 @@ pub enum SensitivityError {
         /// The first one that is at fault, by its number; how many there are where these are too few.
         number: usize,
     },
-    /// The run is ended by its event, whose time has no derivative: its function touches zero, jumps over it, or the
-    /// run starts there.
+    /// The run comes to its event, whose time has no derivative: its function touches zero, jumps over it, or the run
+    /// starts there.
     NoDerivative {
         /// The time.
         time: f64,
@@ -49,8 +49,8 @@ impl fmt::Display for SensitivityError {
             ),
             Self::NoDerivative { time, rate } => write!(
                 f,
-                "at t = {time} the function that ends the run passes through zero at the rate {rate:e}: it touches zero, \
-                 jumps over it or is zero at the start, and the time of the end has no derivative"
+                "at t = {time} the function of the event passes through zero at the rate {rate:e}: it touches zero, jumps \
+                 over it or is zero at the start, and the time of the event has no derivative"
             ),
             Self::NonFinite { time } => {
                 write!(f, "a derivative or a cost is infinite or undefined behind t = {time}: is there a root at zero?")

@@ -8,7 +8,7 @@ use gauss_runtime::system::GaussSystem;
 
 use crate::error::SensitivityError;
 use crate::mesh::{Mesh, initial};
-use crate::run::{At, Residuals, Run, equations};
+use crate::run::{At, Equations, Residuals, Run, equations};
 use crate::states::{ComponentsOf, TangentOf, in_numbers, increment, numbers_of};
 use crate::steps::Steps;
 
@@ -42,7 +42,7 @@ pub struct Point<S: GaussSystem<Scalar = f64>, const P: usize> {
 fn walk<R: Run<P>, C: Steps, T: Real, const P: usize>(
     (run, steps, mesh): (&R, &C, &Mesh),
     numbers: &[T; P],
-    rate: f64,
+    rates: &[f64],
     mut see: impl FnMut(&At<'_, R::System<T>>),
 ) -> Result<(), SensitivityError> {
     let system = run.system(numbers)?;
@@ -54,6 +54,7 @@ fn walk<R: Run<P>, C: Steps, T: Real, const P: usize>(
         }
     };
     show(0, &state);
+    let mut rates_of_events = rates.iter().copied();
     for (n, pair) in mesh.times.windows(2).enumerate() {
         problem.input.number = mesh.interval(n);
         let rates = problem.rates(&state);
@@ -61,42 +62,63 @@ fn walk<R: Run<P>, C: Steps, T: Real, const P: usize>(
             let end = steps.step(&problem, &state, &rates, h);
             end.map_err(|kind| IntegrationError::at(&problem, &state, kind))
         };
-        let h = T::from_f64(pair[1] - pair[0]);
+        // The time of an event at which the step starts has derivatives.
+        let early = state.t - T::from_f64(pair[0]);
+        let h = T::from_f64(pair[1] - pair[0]) - early;
         let mut end = step(h)?;
         end.t = T::from_f64(pair[1]);
-        if T::DERIVATIVES && mesh.ended && n + 1 == mesh.steps() {
+        if T::DERIVATIVES && mesh.is_event(n) {
             let function = problem.input.until(end.t, &end.q, &end.y);
+            let rate = rates_of_events.next().unwrap_or(f64::NAN);
             let later = -(function - T::from_f64(function.lane(0))) / T::from_f64(rate);
             let t = end.t + later;
             end = step(h + later)?;
             end.t = t;
         }
-        state = end;
+        state = after_step(&problem, mesh, (n, end))?;
         show(n + 1, &state);
     }
     Ok(())
 }
 
-/// The rate at which the function that ends a run passes through zero, by the length of the last step.
-fn rate_at_end<R: Run<P>, C: Steps, const P: usize>(
+/// The end of a step, after the jump where its event has one.
+pub(crate) fn after_step<R: Run<P>, T: Real, const P: usize>(
+    problem: &Equations<'_, R, T, P>,
+    mesh: &Mesh,
+    (n, end): (usize, State<R::System<T>>),
+) -> Result<State<R::System<T>>, IntegrationError> {
+    if !mesh.jumps_after(n) {
+        return Ok(end);
+    }
+    problem.input.jumped(&end).map_err(|kind| IntegrationError::at(problem, &end, kind))
+}
+
+/// The rates at which the function of an event passes through zero, by the length of each step that ends at one.
+fn rates_of_events<R: Run<P>, C: Steps, const P: usize>(
     (run, steps, mesh): (&R, &C, &Mesh),
     numbers: &[f64; P],
-) -> Result<f64, SensitivityError> {
-    let last = mesh.steps() - 1;
-    let state = state_at((run, steps, mesh), numbers, last)?;
-    let numbers = &numbers.map(Number::constant);
-    let system = run.system(numbers)?;
-    let mut problem = equations(run, numbers, &system);
-    problem.input.number = mesh.interval(last);
-    let (from, to) = (mesh.times[last], mesh.times[last + 1]);
-    let start: State<R::System<Number>> = in_numbers(&state, Number::constant(from), Number::constant);
-    let h = Number::variable(to - from, 0);
-    let end = steps.step(&problem, &start, &problem.rates(&start), h);
-    let end = end.map_err(|kind| IntegrationError::at(&problem, &start, kind))?;
-    let before = problem.input.until(start.t, &start.q, &start.y).value;
-    let after = problem.input.until(start.t + h, &end.q, &end.y);
-    check_rate(to, after.slopes[0], (after.value - before) / (to - from))?;
-    Ok(after.slopes[0])
+) -> Result<Vec<f64>, SensitivityError> {
+    let plain = run.system(numbers)?;
+    let mut state = initial(&equations(run, numbers, &plain), mesh)?;
+    let constants = &numbers.map(Number::constant);
+    let system = run.system(constants)?;
+    let mut problem = equations(run, constants, &system);
+    let (mut made, mut rates) = (0, Vec::new());
+    for n in (0..mesh.steps()).filter(|&n| mesh.is_event(n)) {
+        state = advance((run, steps, mesh), (&plain, numbers), state, made..n)?;
+        made = n;
+        problem.input.number = mesh.interval(n);
+        let (from, to) = (mesh.times[n], mesh.times[n + 1]);
+        let start: State<R::System<Number>> = in_numbers(&state, Number::constant(from), Number::constant);
+        let h = Number::variable(to - from, 0);
+        let end = steps.step(&problem, &start, &problem.rates(&start), h);
+        let end = end.map_err(|kind| IntegrationError::at(&problem, &start, kind))?;
+        let before = problem.input.until(start.t, &start.q, &start.y).value;
+        let after = problem.input.until(start.t + h, &end.q, &end.y);
+        check_rate(to, after.slopes[0], (after.value - before) / (to - from))?;
+        rates.push(after.slopes[0]);
+    }
+    Ok(rates)
 }
 
 /// Refuses an event whose function passes through zero so much slower than it changes over the last step that it
@@ -105,18 +127,6 @@ pub(crate) fn check_rate(time: f64, rate: f64, mean: f64) -> Result<(), Sensitiv
     const TOUCHES: f64 = 1e-6;
     let passes = rate.is_finite() && mean.is_finite() && rate.abs() > TOUCHES * mean.abs();
     if passes { Ok(()) } else { Err(SensitivityError::NoDerivative { time, rate }) }
-}
-
-/// The state after so many steps.
-fn state_at<R: Run<P>, C: Steps, const P: usize>(
-    (run, steps, mesh): (&R, &C, &Mesh),
-    numbers: &[f64; P],
-    made: usize,
-) -> Result<State<R::System<f64>>, SensitivityError> {
-    let system = run.system(numbers)?;
-    let problem = equations(run, numbers, &system);
-    let start = initial(&problem, mesh)?;
-    advance((run, steps, mesh), (&system, numbers), start, 0..made)
 }
 
 /// The steps of a run from one number to another, in plain numbers.
@@ -133,6 +143,7 @@ pub(crate) fn advance<R: Run<P>, C: Steps, const P: usize>(
         let end = steps.step(&problem, &state, &problem.rates(&state), h);
         state = end.map_err(|kind| IntegrationError::at(&problem, &state, kind))?;
         state.t = mesh.times[n + 1];
+        state = after_step(&problem, mesh, (n, state))?;
     }
     Ok(state)
 }
@@ -145,14 +156,14 @@ fn in_all_directions<R: Run<P>, C: Steps, const P: usize>(
     mut see: impl FnMut(usize, &[Number; P], &At<'_, R::System<Number>>),
 ) -> Result<(), SensitivityError> {
     let mesh = Mesh::of(run, steps, numbers)?;
-    let rate = if mesh.ended { rate_at_end((run, steps, &mesh), numbers)? } else { f64::NAN };
+    let rates = &rates_of_events((run, steps, &mesh), numbers)?;
     // Once also where there are no numbers.
     for first in (0..P.max(1)).step_by(TOGETHER) {
         let numbers = &std::array::from_fn(|k| match k.checked_sub(first) {
             Some(direction) if direction < TOGETHER => Number::variable(numbers[k], direction),
             _ => Number::constant(numbers[k]),
         });
-        walk((run, steps, &mesh), numbers, rate, |at| see(first, numbers, at))?;
+        walk((run, steps, &mesh), numbers, rates, |at| see(first, numbers, at))?;
     }
     Ok(())
 }
@@ -238,7 +249,7 @@ pub(crate) fn misfit<M: Residuals<P, R>, C: Steps, const P: usize, const R: usiz
 ) -> Result<f64, SensitivityError> {
     let mesh = Mesh::of(run, steps, numbers)?;
     let mut sum = 0.0;
-    walk((run, steps, &mesh), numbers, f64::NAN, |at| {
+    walk((run, steps, &mesh), numbers, &[], |at| {
         sum += run.residuals(numbers, at).iter().map(|residual| residual * residual).sum::<f64>();
     })?;
     if sum.is_finite() { Ok(sum) } else { Err(SensitivityError::NonFinite { time: mesh.times[0] }) }

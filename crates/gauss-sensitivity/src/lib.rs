@@ -12,8 +12,8 @@
 //!
 //! All are exact derivatives of the steps that were made, whose lengths the values choose. Rotations and poses are
 //! differentiated as increments seen from the body, `q ∘ exp(σ)`; constraints hold differentiated; an event that ends
-//! the run has the derivative of its time. Not differentiated: contacts, jumps at events (both have derivatives in
-//! dual numbers, `gauss-contact` and `Simulation::then`), implicit methods, the momentum form.
+//! the run, or at which its state jumps, has the derivative of its time. Not differentiated: contacts (which have
+//! derivatives in dual numbers, `gauss-contact`), implicit methods, the momentum form.
 //!
 //! | file | holds |
 //! |---|---|

@@ -1,7 +1,7 @@
 //! The steps of a run, as its values choose them: derivatives are those of these very steps, with their lengths held.
 
 use gauss_runtime::integrate::drive::control::prepare;
-use gauss_runtime::integrate::{IntegrationError, State, SystemProblem};
+use gauss_runtime::integrate::{IntegrationError, Sample, State, SystemProblem};
 use gauss_runtime::real::Real;
 
 use crate::error::SensitivityError;
@@ -16,6 +16,8 @@ pub(crate) struct Mesh {
     reached: Vec<usize>,
     /// Whether an event ended the run.
     pub(crate) ended: bool,
+    /// The steps, from 0, at whose ends the state jumps at an event.
+    jumps: Vec<usize>,
 }
 
 impl Mesh {
@@ -32,21 +34,32 @@ impl Mesh {
         let mut state = State { t: instants[0], q, y: z };
         let first = equations(run, numbers, &system);
         let crossing = run.until(numbers, &first.input.at(state.t, &state.q, &state.y)).map(|(crossing, _)| crossing);
-        let mut mesh = Self { times: vec![state.t], reached: vec![0], ended: false };
+        let jumps = run.jump(numbers, &first.input.at(state.t, &state.q, &state.y)).is_some();
+        let jumping = (crossing.is_some() && jumps).then(|| run.goes_through());
+        let mut mesh = Self { times: vec![state.t], reached: vec![0], ended: false, jumps: Vec::new() };
         let mut length = None;
         for (number, &end) in instants.iter().enumerate().skip(1) {
             let fed = || Fed { number: number - 1, run, numbers, system: &system };
             let (problem, function) = (SystemProblem::new(&system).input_from(fed()), fed());
             let steps = &steps.after(length);
             let event = crossing.map(|crossing| (crossing, move |t: f64, q: &_, z: &_| function.until(t, q, z)));
+            let jump = |sample: &mut Sample<R::System<f64>>| {
+                if let Some((q, z)) = run.jump(numbers, &fed().at(sample.t, &sample.q, &sample.z)) {
+                    (sample.q, sample.z) = (q, z);
+                }
+            };
             let first = mesh.times.len();
-            let times = &mut mesh.times;
-            let each = &mut |t: f64| {
+            let (times, jumps) = (&mut mesh.times, &mut mesh.jumps);
+            let each = &mut |t: f64, jumped: bool| {
                 if times.last() != Some(&t) {
                     times.push(t);
                 }
+                if jumped {
+                    jumps.push(times.len() - 2);
+                }
             };
-            (state, mesh.ended) = steps.drive(problem, state, end, event, each)?;
+            let jump = jumping.map(|through| (jump, through));
+            (state, mesh.ended) = steps.drive(problem, state, end, (event, jump), each)?;
             if mesh.ended && mesh.times.len() == first {
                 return Err(SensitivityError::NoDerivative { time: state.t, rate: f64::NAN });
             }
@@ -64,6 +77,21 @@ impl Mesh {
     /// Number of the steps.
     pub(crate) fn steps(&self) -> usize {
         self.times.len() - 1
+    }
+
+    /// Whether a step ends at an event.
+    pub(crate) fn is_event(&self, step: usize) -> bool {
+        self.ended && step + 1 == self.steps() || self.jumps_after(step)
+    }
+
+    /// Whether the state jumps at the end of a step.
+    pub(crate) fn jumps_after(&self, step: usize) -> bool {
+        self.jumps.binary_search(&step).is_ok()
+    }
+
+    /// Whether the time at which a step starts is that of an event.
+    pub(crate) fn starts_at_event(&self, step: usize) -> bool {
+        step.checked_sub(1).is_some_and(|before| self.jumps_after(before))
     }
 
     /// The interval between instants that a step is in.
@@ -87,7 +115,7 @@ impl Mesh {
 
     /// Its bytes.
     pub(crate) fn bytes(&self) -> usize {
-        size_of_val(&self.times[..]) + size_of_val(&self.reached[..])
+        size_of_val(&self.times[..]) + size_of_val(&self.reached[..]) + size_of_val(&self.jumps[..])
     }
 }
 

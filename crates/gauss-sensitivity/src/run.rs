@@ -1,8 +1,8 @@
 //! Runs as functions of numbers, which are differentiated.
 
-use gauss_runtime::configuration::VectorSpace;
+use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::error::ParameterError;
-use gauss_runtime::integrate::{Crossing, InputSource, SystemProblem, VelocityForm};
+use gauss_runtime::integrate::{Crossing, InputSource, IntegrationErrorKind, State, SystemProblem, VelocityForm};
 use gauss_runtime::real::Real;
 use gauss_runtime::system::GaussSystem;
 
@@ -21,10 +21,10 @@ pub type Start<S> = (ConfigurationOf<S>, SpeedsOf<S>);
 /// A state of a run, as inputs, events, costs and residuals see it.
 pub struct At<'a, S: GaussSystem> {
     /// Number of the [instant](Run::instants), from 0, in costs and residuals. Where an [event](Run::until) ended the
-    /// run it is the instant that would have come next. In inputs and events: the number of the interval between
+    /// run it is the instant that would have come next. In inputs, events and jumps: the number of the interval between
     /// instants that the state is in, from 0.
     pub number: usize,
-    /// Whether the run was ended by its event here.
+    /// Whether the run was ended by its event here; in jumps it is not.
     pub ended: bool,
     /// The system: energies, frames, inverse dynamics.
     pub system: &'a S,
@@ -124,6 +124,21 @@ pub trait Run<const P: usize> {
         let _ = (numbers, at);
         None
     }
+
+    /// The configuration and the speeds from which the run goes on at the event of [`until`](Self::until), in the place
+    /// of ending there: a bounce, a blow, a switch. The answer is `Some` for all states or for none; under constraints
+    /// it is brought onto them. Derivatives pass through the jump and its time. What jumps have to be is told at
+    /// [`Simulation::then`](gauss_runtime::integrate::Simulation::then): a function of the configuration is turned back,
+    /// but for [`goes_through`](Self::goes_through).
+    fn jump<T: Real>(&self, numbers: &[T; P], at: &At<'_, Self::System<T>>) -> Option<Start<Self::System<T>>> {
+        let _ = (numbers, at);
+        None
+    }
+
+    /// Whether the function of the event may go on through zero after a jump, as at a gate that kicks.
+    fn goes_through(&self) -> bool {
+        false
+    }
 }
 
 /// A run with a cost: the sum of one number for each instant.
@@ -162,6 +177,19 @@ impl<'a, T: Real, R: Run<P>, const P: usize> Fed<'a, R, T, P> {
         z: &'a SpeedsOf<R::System<T>>,
     ) -> At<'a, R::System<T>> {
         At { number: self.number, ended: false, system: self.system, t, q, z }
+    }
+
+    /// The state after the jump of the event, if it has one; else the state.
+    pub(crate) fn jumped(&self, state: &State<R::System<T>>) -> Result<State<R::System<T>>, IntegrationErrorKind> {
+        let Some((q, z)) = self.run.jump(self.numbers, &self.at(state.t, &state.q, &state.y)) else {
+            return Ok(*state);
+        };
+        if !R::System::<T>::CONSTRAINED {
+            return Ok(State { t: state.t, q: q.renormalise(), y: z });
+        }
+        let projected = self.system.project(state.t, &q, &z);
+        let (q, y) = projected.map_err(|error| IntegrationErrorKind::Projection { error })?;
+        Ok(State { t: state.t, q, y })
     }
 
     /// The function that ends the run; NaN where there is none.

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use gauss_runtime::integrate::drive::observer::Observer;
 use gauss_runtime::integrate::{
     Adaptive, Coefficients, CommutatorFree4, Control, Crossing, DEFAULT_LIMIT, Fixed, InputSource, IntegrationError,
     IntegrationErrorKind, Problem, Rates, RungeKutta, Sample, Simulation, State, SystemProblem, VelocityForm,
@@ -28,17 +29,23 @@ pub trait Steps: sealed::Sealed {
         h: S::Scalar,
     ) -> Result<State<S>, IntegrationErrorKind>;
 
-    /// From a state to a time, by steps as long as they are chosen: `reached` is told the times at which they end.
-    /// Where the function of an event passes through zero the run ends there; whether it did.
+    /// From a state to a time, by steps as long as they are chosen: `reached` is told the times at which they end, and
+    /// whether the state jumps there. Where the function of an event passes through zero it jumps, or the run ends
+    /// there; whether it did.
     #[doc(hidden)]
-    fn drive<S: GaussSystem<Scalar = f64>, I: InputSource<S>, E: Fn(f64, &S::Configuration, &S::Speeds) -> f64>(
+    fn drive<S, I, E, J>(
         &self,
         problem: SystemProblem<'_, S, VelocityForm, I>,
         state: State<S>,
         end: f64,
-        event: Option<(Crossing, E)>,
-        reached: &mut dyn FnMut(f64),
-    ) -> Result<(State<S>, bool), IntegrationError>;
+        event: Event<E, J>,
+        reached: &mut dyn FnMut(f64, bool),
+    ) -> Result<(State<S>, bool), IntegrationError>
+    where
+        S: GaussSystem<Scalar = f64>,
+        I: InputSource<S>,
+        E: Fn(f64, &S::Configuration, &S::Speeds) -> f64,
+        J: FnMut(&mut Sample<S>);
 
     /// The same after steps of about this length, where there were any.
     #[doc(hidden)]
@@ -46,32 +53,61 @@ pub trait Steps: sealed::Sealed {
     fn after(&self, length: Option<f64>) -> Self;
 }
 
+/// The function of an event, and its jump, with whether the function may go on.
+type Event<E, J> = (Option<(Crossing, E)>, Option<(J, bool)>);
+
+/// The times at which steps end, and those of jumps.
+struct Reached<'a>(&'a mut dyn FnMut(f64, bool));
+
+impl<S: GaussSystem<Scalar = f64>> Observer<S> for Reached<'_> {
+    fn see(&mut self, sample: &Sample<S>) {
+        (self.0)(sample.t, false);
+    }
+
+    fn event(&mut self, _: usize, sample: &Sample<S>) {
+        (self.0)(sample.t, true);
+    }
+}
+
 /// [`Steps::drive`] by a control.
-fn drive_by<S, C, I, E>(
+fn drive_by<S, C, I, E, J>(
     control: C,
     problem: SystemProblem<'_, S, VelocityForm, I>,
     state: State<S>,
     end: f64,
-    event: Option<(Crossing, E)>,
-    reached: &mut dyn FnMut(f64),
+    (event, jump): Event<E, J>,
+    reached: &mut dyn FnMut(f64, bool),
 ) -> Result<(State<S>, bool), IntegrationError>
 where
     S: GaussSystem<Scalar = f64>,
     C: Control<S>,
     I: InputSource<S>,
     E: Fn(f64, &S::Configuration, &S::Speeds) -> f64,
+    J: FnMut(&mut Sample<S>),
 {
     let Some((crossing, function)) = event else {
         let each = &mut |state: &State<S>, _: &Rates<S>, _| {
-            reached(state.t);
+            reached(state.t, false);
             ControlFlow::Continue(())
         };
         return control.drive(&problem, state, end, DEFAULT_LIMIT, each).map(|end| (end, false));
     };
     let SystemProblem { system, input, .. } = problem;
-    let run = Simulation::new(system).input_from(input).observe(|sample: &Sample<S>| reached(sample.t));
-    let run = run.until(crossing, function).control(control);
-    let end = run.run_to_end(state.q, state.y, state.t..end)?;
+    let run = Simulation::new(system).input_from(input).control(control);
+    let (q, z, interval) = (state.q, state.y, state.t..end);
+    let end = match jump {
+        None => {
+            let seen = |sample: &Sample<S>| reached(sample.t, false);
+            run.observe(seen).until(crossing, function).run_to_end(q, z, interval)?
+        }
+        Some((jump, true)) => {
+            let run = run.event(crossing, function).then_through(jump);
+            run.observe_by(Reached(reached)).run_to_end(q, z, interval)?
+        }
+        Some((jump, false)) => {
+            run.event(crossing, function).then(jump).observe_by(Reached(reached)).run_to_end(q, z, interval)?
+        }
+    };
     Ok((State { t: end.t, q: end.q, y: end.z }, end.stopped_by.is_some()))
 }
 
@@ -90,14 +126,20 @@ macro_rules! steps {
                 Fixed::by(self.method, h).within(problem, state, rates, h)
             }
 
-            fn drive<S: GaussSystem<Scalar = f64>, I: InputSource<S>, E: Fn(f64, &S::Configuration, &S::Speeds) -> f64>(
+            fn drive<S, I, E, J>(
                 &self,
                 problem: SystemProblem<'_, S, VelocityForm, I>,
                 state: State<S>,
                 end: f64,
-                event: Option<(Crossing, E)>,
-                reached: &mut dyn FnMut(f64),
-            ) -> Result<(State<S>, bool), IntegrationError> {
+                event: Event<E, J>,
+                reached: &mut dyn FnMut(f64, bool),
+            ) -> Result<(State<S>, bool), IntegrationError>
+            where
+                S: GaussSystem<Scalar = f64>,
+                I: InputSource<S>,
+                E: Fn(f64, &S::Configuration, &S::Speeds) -> f64,
+                J: FnMut(&mut Sample<S>),
+            {
                 drive_by(*self, problem, state, end, event, reached)
             }
 
