@@ -4,7 +4,7 @@ use super::cells::{Row, missing, moot, refused, shown, together};
 
 const AT_A_STATE: &str = "it happens in a run; the equations at a state have no part of it";
 const WITH_CONTACTS: &str = "crates/gauss-contact/tests/many/sampled.rs";
-const NOT_IN_RUNS: &str = "`contact_events()` takes inputs and events, and nothing that changes them: a compile error";
+const JUMPS_OF_CONTACTS: &str = "crates/gauss-contact/tests/jumps.rs";
 const BETWEEN_STEPS: &str = "what is done between two steps is the caller's";
 
 pub const SAMPLED: Row = Row {
@@ -23,8 +23,12 @@ pub const SAMPLED: Row = Row {
         ("evt", shown(WITH_CONTACTS, "from_event_to_event")),
         ("stp", shown(WITH_CONTACTS, "in_steps_of_any_length")),
         ("one", moot(BETWEEN_STEPS)),
-        ("lan", missing("`Batch` and `Ensemble` have no such method")),
-        ("thr", missing("`Batch` and `Ensemble` have no such method")),
+        (
+            "lan",
+            shown("crates/gauss-batch/tests/sampled_lanes.rs", "every_run_has_the_bits_of_its_own")
+                .but("`Ensemble`; `Batch::advance` has none"),
+        ),
+        ("thr", shown("crates/gauss-batch/tests/sampled_lanes.rs", "every_run_has_the_bits_of_its_own")),
         ("at", shown("tests/tests/runs/sampled.rs", "states_between_have_the_input_that_was_held")),
         ("tab", shown("tests/tests/runs/sampled.rs", "tables_tell_what_was_held")),
         ("plt", together("sampled::table_and_plot")),
@@ -140,8 +144,12 @@ pub const JUMPS: Row = Row {
         ("tay", shown("tests/tests/runs/events.rs", "a_ball_bounces_by_every_method")),
         ("ros", together("jump::stiff")),
         ("imp", shown("tests/tests/runs/events.rs", "a_ball_bounces_by_every_method")),
-        ("evt", missing(NOT_IN_RUNS)),
-        ("stp", missing("events of steps change nothing: begin another `ContactStepper` at the state after a jump")),
+        ("evt", shown(JUMPS_OF_CONTACTS, "a_blow_sets_what_sticks_sliding")),
+        (
+            "stp",
+            shown(JUMPS_OF_CONTACTS, "walls_of_ones_own_fold_the_way_of_a_block")
+                .but("the step ends at the event, by the states that steps reach"),
+        ),
         ("one", moot(BETWEEN_STEPS)),
         ("lan", shown("tests/tests/runs/events.rs", "runs_in_lanes_pile_up_and_are_told_as_alone")),
         ("thr", together("jump::threads")),
@@ -156,9 +164,15 @@ pub const JUMPS: Row = Row {
                 "tests/tests/derivatives/duals/events.rs",
                 "times_of_impacts_and_the_flight_after_them_have_derivatives",
             )
-            .but("in dual numbers; `Run` of `gauss-sensitivity` has no jumps"),
+            .but("in dual numbers; by `Run::jump` of `gauss-sensitivity` as well"),
         ),
-        ("adj", missing("`Run` has `until`, and no jumps")),
+        (
+            "adj",
+            shown(
+                "crates/gauss-sensitivity/tests/jumps.rs",
+                "backward_and_forward_are_dual_numbers_through_the_same_run",
+            ),
+        ),
         ("lin", moot(AT_A_STATE)),
         ("dst", moot("a step ends at the time that it is given; no jump is within it")),
         ("run", missing("derivatives of a jump and of its time have no place in the product")),
@@ -166,7 +180,7 @@ pub const JUMPS: Row = Row {
         (
             "py",
             shown("examples/python/tests/test_contacts.py", "test_a_wall_of_ones_own_turns_back")
-                .but("`ensemble` has none, nor have runs with contacts"),
+                .but("`ensemble` has none"),
         ),
     ],
 };
