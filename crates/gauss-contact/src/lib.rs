@@ -53,19 +53,20 @@ extern crate alloc;
 // friction and impacts from event to event: `law` and `friction` (what bounds a force), `solver` (the laws at an
 // instant, over `dense`), `equations` (which forces keep which rates at zero), `mode` (a system in given modes),
 // `witness` (what ends them), `moving` (gaps that change with time), `impact`, `poisson`, `decide` (what becomes of a
-// state at an event), `rest` (bounces that pile up), `run`, `trajectory`, `present`, `action`, `balance`, `sensors`
-// (forces at contacts), `rounding`. Contacts that depend on one another: `shared` (their forces) over `reserve` (how
-// far inside the bounds forces can be) and `sticking` (whether there are any). Decisions are made by values; equations
-// are solved in the scalar, so that derivatives pass through. `steps`: steps of one length in given memory: `cones`
-// (the laws by rows), `impulses` (their solver) with `unknowns` and `equations` over `linear`, `passing` (functions of
-// the user within a step), `made` (the record of steps), `projection` (the end of a step, within `bounds`, over
-// `least`), `speeds` (the speeds of its forces), `stiffness` (how much these change with places), `springs` (what steps
-// without a memory refuse), `gain` (the energy of its impacts), `account` (that of a run), `stepper` and `outcome`
-// (what an attempt came to), `held` (between steps, while contacts change), `report`, `run`; `relaxed`, the other law,
-// and `adaptive`, steps that keep a tolerance. `lanes`: several states at once in packs, `together`: a step of all of
-// them, whose laws (`posed`, the laws of a step as a problem) are generic in the scalar and know by `lockstep` whether
-// lanes decide alike; `rounds`, what one lane tries alone. `ensemble`: many on threads. `changeover`: from `run` to
-// `steps` and back. `slots`: contacts that come at run time: `slot`, `place` (how it moves), `envelope` (A), `system`.
+// state at an event), `jumps` (those of the state, by events of the user), `rest` (bounces that pile up), `run` with
+// `watching` (events and jumps that it is given), `trajectory`, `present`, `action`, `balance`, `sensors` (forces at
+// contacts), `rounding`. Contacts that depend on one another: `shared` (their forces) over `reserve` (how far inside
+// the bounds forces can be) and `sticking` (whether there are any). Decisions are made by values; equations are solved
+// in the scalar, so that derivatives pass through. `steps`: steps of one length in given memory: `cones` (the laws by
+// rows), `impulses` (their solver) with `unknowns` and `equations` over `linear`, `passing` (functions of the user
+// within a step), `made` (the record of steps), `projection` (the end of a step, within `bounds`, over `least`),
+// `speeds` (the speeds of its forces), `stiffness` (how much these change with places), `springs` (what steps without a
+// memory refuse), `gain` (the energy of its impacts), `account` (that of a run), `stepper` and `outcome` (what an
+// attempt came to), `held` (between steps, while contacts change), `report`, `run`; `relaxed`, the other law, and
+// `adaptive`, steps that keep a tolerance. `lanes`: several states at once in packs, `together`: a step of all of them,
+// whose laws (`posed`, the laws of a step as a problem) are generic in the scalar and know by `lockstep` whether lanes
+// decide alike; `rounds`, what one lane tries alone. `ensemble`: many on threads. `changeover`: from `run` to `steps`
+// and back. `slots`: contacts that come at run time: `slot`, `place` (how it moves), `envelope` (A), `system`.
 // Derivatives of a step: `motion` (its formulas in any scalar), `watch` (what a step decided), `followed` (the same
 // step in dual numbers, over `active`, the laws of contacts that act), `edges` (contacts at a change), `derivatives`;
 // `kept` (a state to go back to).
