@@ -110,8 +110,8 @@ impl<'k, K: ContactSystem> ContactTrajectory<'k, K> {
         &self.passages
     }
 
-    /// The jumps of the state by events that the run was given ([`ContactRun::then`](crate::ContactRun::then)), in order
-    /// of time.
+    /// The jumps of the state by events that the run was given ([`ContactRun::then`](crate::ContactRun::then)), in
+    /// order of time.
     #[must_use]
     pub fn state_jumps(&self) -> &[StateJump<K>] {
         &self.state_jumps

@@ -128,8 +128,8 @@ pub trait Run<const P: usize> {
     /// The configuration and the speeds from which the run goes on at the event of [`until`](Self::until), in the place
     /// of ending there: a bounce, a blow, a switch. The answer is `Some` for all states or for none; under constraints
     /// it is brought onto them. Derivatives pass through the jump and its time. What jumps have to be is told at
-    /// [`Simulation::then`](gauss_runtime::integrate::Simulation::then): a function of the configuration is turned back,
-    /// but for [`goes_through`](Self::goes_through).
+    /// [`Simulation::then`](gauss_runtime::integrate::Simulation::then): a function of the configuration is turned
+    /// back, but for [`goes_through`](Self::goes_through).
     fn jump<T: Real>(&self, numbers: &[T; P], at: &At<'_, Self::System<T>>) -> Option<Start<Self::System<T>>> {
         let _ = (numbers, at);
         None

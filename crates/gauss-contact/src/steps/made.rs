@@ -158,9 +158,9 @@ impl<'k, K: ContactSystem<Scalar = f64>> SteppedRun<'k, K> {
         Self { kernel, start, samples, statistics, passages, state_jumps: Vec::new(), stopped_by: None, open }
     }
 
-    /// The state at a time; where a step ends there, its end, where the state jumps, the one after it. Between the ends of steps it is as accurate as these are,
-    /// and the gap of a closed contact, zero at both, is off by as much. In a step with an impact speeds jump at half
-    /// of it, as the step itself has it: when the impact is, is not known.
+    /// The state at a time; where a step ends there, its end, where the state jumps, the one after it. Between the ends
+    /// of steps it is as accurate as these are, and the gap of a closed contact, zero at both, is off by as much. In a
+    /// step with an impact speeds jump at half of it, as the step itself has it: when the impact is, is not known.
     ///
     /// # Errors
     /// `OutsideRun` where the run does not cover the time.
@@ -201,7 +201,8 @@ impl<'k, K: ContactSystem<Scalar = f64>> SteppedRun<'k, K> {
         Ok(self.samples.get(self.step_at(t)?).map_or(&self.open, |step| &step.modes))
     }
 
-    /// The middles of all steps with an impact, where [`at`](Self::at) has speeds jump, and the times of jumps by events.
+    /// The middles of all steps with an impact, where [`at`](Self::at) has speeds jump, and the times of jumps by
+    /// events.
     #[must_use]
     pub fn jumps(&self) -> Vec<f64> {
         let strikes = |(_, step): &(usize, &StepSample<K>)| step.report.impacts > 0;

@@ -167,8 +167,8 @@ impl Passing {
         self.happen((events, problem), made, [&before, &passed])
     }
 
-    /// The events in a step that ends at a jump, with the states before it and where it would have ended; whether one of
-    /// them ends the run.
+    /// The events in a step that ends at a jump, with the states before it and where it would have ended; whether one
+    /// of them ends the run.
     fn happen<K: ContactSystem<Scalar = f64>, P: Problem<System = K>, E: Events<K>>(
         &mut self,
         (events, problem): (&mut E, &P),

@@ -351,9 +351,9 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
 
 impl<'k, K: ContactSystem<Scalar = f64>, I, E, G> ContactSteps<'k, K, I, Watched<E, G>> {
     /// Changes the state at the event that was added last, as
-    /// [`Simulation::then`](gauss_runtime::integrate::Simulation::then) does. The step in which the event is ends there,
-    /// to a rounding of the time, and the next one begins with the state after the jump, as a run does: what the jump
-    /// closes further is an impact of that step. [`SteppedRun::state_jumps`] has the states before and after it.
+    /// [`Simulation::then`](gauss_runtime::integrate::Simulation::then) does. The step in which the event is ends
+    /// there, to a rounding of the time, and the next one begins with the state after the jump, as a run does: what the
+    /// jump closes further is an impact of that step. [`SteppedRun::state_jumps`] has the states before and after it.
     ///
     /// A jump that leaves a gap below zero ends the run with
     /// [`JumpPenetrates`](ContactErrorKind::JumpPenetrates), one that does not lead back, or piles up, with the errors

@@ -21,8 +21,8 @@ pub(super) fn input<S: Moving>(request: &Request<'_>, t: f64, q: &S::Configurati
     }
 }
 
-/// All events, each with its direction, whether it ends the run, whether the state jumps there, and whether it may go on
-/// after that.
+/// All events, each with its direction, whether it ends the run, whether the state jumps there, and whether it may go
+/// on after that.
 pub(super) fn watched<'a, S: Moving>(
     request: &'a Request<'_>,
 ) -> impl Iterator<Item = (Watch<'a, S::Configuration, S::Speeds>, Crossing, [bool; 3])> {

@@ -99,8 +99,8 @@ impl RestAtZero {
     }
 }
 
-/// Whether a function changes with the configuration, where time and speeds stay: moved by half of its digits, every one
-/// of its components by itself.
+/// Whether a function changes with the configuration, where time and speeds stay: moved by half of its digits, every
+/// one of its components by itself.
 pub fn is_of_the_configuration<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
     function: Function<'_, S>,
