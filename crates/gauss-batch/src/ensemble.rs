@@ -8,10 +8,10 @@ use gauss_runtime::integrate::{Adaptive, Crossing, DEFAULT_LIMIT, Form, Sample, 
 use gauss_runtime::simd::Packed;
 use gauss_runtime::system::GaussSystem;
 
+use crate::input::{LaneInput, LaneSource};
 use crate::lanes::run::{InLanes, Runs};
 use crate::lanes::{BatchSystem, LaneControl, RunOutcome, SingleConfiguration, SingleSpeeds};
 use crate::packs::States;
-use crate::sampling::{Fed, LaneInput};
 use crate::{Batch, Kernels};
 
 /// Many runs over one interval, in lanes and on threads, each with steps and an end of its own.
@@ -127,7 +127,7 @@ impl<'k, K: ?Sized, F, I, C, E> Ensemble<'k, K, F, I, C, E> {
         self.map_parts(|input| input, watched)
     }
 
-    /// With another input and other events.
+    /// Replaces the input and the events.
     pub(crate) fn map_parts<J, D>(
         self,
         fed: impl FnOnce(I) -> J,
@@ -247,7 +247,7 @@ impl<'k, K: ?Sized, F, I, C, E> Ensemble<'k, K, F, I, C, E> {
         E: Events<S> + Clone,
     {
         let batch = &self.batch;
-        let input = Fed::<S, I, Kind> { input: &batch.input, room: I::room() };
+        let input = LaneSource::<S, I, Kind> { input: &batch.input, room: I::room() };
         let problem = SystemProblem { system: batch.kernels.of_block(block), form: batch.form, input };
         let hold = |lane: usize, input: &S::Input| I::hold(&problem.input.room, lane, input);
         let in_lanes = InLanes {

@@ -78,6 +78,7 @@ extern crate alloc;
 mod advance;
 mod ensemble;
 mod error;
+mod input;
 mod lanes;
 mod packs;
 mod sampling;
@@ -95,9 +96,10 @@ use gauss_runtime::system::GaussSystem;
 use advance::Interval;
 pub use ensemble::Ensemble;
 pub use error::BatchError;
+pub use input::{FunctionInput, HoldInput, LaneInput, SampledInput};
 pub use lanes::{BatchSystem, Ended, EventState, LaneControl, RunError, RunOutcome, SingleConfiguration, SingleSpeeds};
 pub use packs::{Packs, States};
-pub use sampling::{Continuous, Held, LaneInput, LaneSamples, SampledInput};
+pub use sampling::LaneSamples;
 
 /// The kernels of a batch: one for all blocks, or a slice with one for each.
 pub trait Kernels<S> {

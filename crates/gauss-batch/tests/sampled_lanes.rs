@@ -64,9 +64,9 @@ where
             .delayed(0.03)
             .initially(SVector::from([Pack::splat(0.4)]))
             .sampled(0.07, |_, _, z: &SVector<Pack, 1>| SVector::from([-z[0]]))
-            .event(Crossing::Falling, |_, q: &SVector<Pack, 1>, _: &SVector<Pack, 1>| q[0] + Pack::splat(0.4))
-            .then(|state: &mut Sample<SwingKernel<Pack>>| state.z[0] = Pack::splat(-0.8) * state.z[0])
-            .until(Crossing::Rising, |t, _, z: &SVector<Pack, 1>| z[0] - Pack::splat(4.5) - t)
+            .event(Crossing::Falling, |_, q: &SVector<Pack, 1>, _: &SVector<Pack, 1>| q[0] - Pack::splat(0.2))
+            .then_through(|state: &mut Sample<SwingKernel<Pack>>| state.z[0] = Pack::splat(0.5) * state.z[0])
+            .until(Crossing::Falling, |_, q: &SVector<Pack, 1>, _: &SVector<Pack, 1>| q[0] - Pack::splat(0.05))
     };
     let run = |in_threads: bool| {
         let mut states = States::<SwingKernel<Pack>>::from_fn(11, start);
@@ -86,16 +86,16 @@ where
             .delayed(0.03)
             .initially(SVector::from([0.4]))
             .sampled(0.07, |_, _, z| SVector::from([-z[0]]))
-            .event(Crossing::Falling, |_, q, _| q[0] + 0.4)
-            .then(|state| state.z[0] *= -0.8)
-            .until(Crossing::Rising, |t, _, z| z[0] - 4.5 - t);
+            .event(Crossing::Falling, |_, q, _| q[0] - 0.2)
+            .then_through(|state| state.z[0] *= 0.5)
+            .until(Crossing::Falling, |_, q, _| q[0] - 0.05);
         let own = own.run_to_end(q, z, interval.0..interval.1).expect("runs");
         let end = end.expect("runs");
         assert_eq!((end.time, end.stopped_by, end.summary), (own.t, own.stopped_by, own.summary), "{i}");
         assert_eq!(states.get(i), (own.q, own.z), "{i}");
         (jumped, stopped) = (jumped + end.summary.jumps, stopped + u32::from(end.stopped_by.is_some()));
     }
-    assert!(jumped > 3 && stopped < 11, "{jumped} {stopped}");
+    assert!(jumped > 3 && stopped > 0, "{jumped} {stopped}");
     assert!(states.iter().zip(again.iter()).all(|(a, b)| a == b));
 }
 

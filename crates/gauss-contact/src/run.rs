@@ -349,7 +349,7 @@ where
         Ok(true)
     }
 
-    /// What follows an event that ends the run is the state after it alone.
+    /// Ends the run in the state after an event that ends it.
     fn ends_where_stopped(&mut self, t: K::Scalar) {
         self.end = if self.made.stopped_by.is_some() { t } else { self.end };
     }

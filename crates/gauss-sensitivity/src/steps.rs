@@ -57,9 +57,9 @@ pub trait Steps: sealed::Sealed {
 type Event<E, J> = (Option<(Crossing, E)>, Option<(J, bool)>);
 
 /// The times at which steps end, and those of jumps.
-struct Reached<'a>(&'a mut dyn FnMut(f64, bool));
+struct TimeObserver<'a>(&'a mut dyn FnMut(f64, bool));
 
-impl<S: GaussSystem<Scalar = f64>> Observer<S> for Reached<'_> {
+impl<S: GaussSystem<Scalar = f64>> Observer<S> for TimeObserver<'_> {
     fn see(&mut self, sample: &Sample<S>) {
         (self.0)(sample.t, false);
     }
@@ -102,10 +102,10 @@ where
         }
         Some((jump, true)) => {
             let run = run.event(crossing, function).then_through(jump);
-            run.observe_by(Reached(reached)).run_to_end(q, z, interval)?
+            run.observe_by(TimeObserver(reached)).run_to_end(q, z, interval)?
         }
         Some((jump, false)) => {
-            run.event(crossing, function).then(jump).observe_by(Reached(reached)).run_to_end(q, z, interval)?
+            run.event(crossing, function).then(jump).observe_by(TimeObserver(reached)).run_to_end(q, z, interval)?
         }
     };
     Ok((State { t: end.t, q: end.q, y: end.z }, end.stopped_by.is_some()))

@@ -23,7 +23,7 @@ use crate::{jumps, sampling};
 
 use super::kept::Kept;
 use super::made::{StepSample, StepStatistics, SteppedRun};
-use super::passing::{Passing, Verdict as Seen};
+use super::passing::{EventOutcome, EventWatch};
 use super::report::StepReport;
 use super::run::{ContactSteps, held, problem};
 use super::stepper::ContactStepper;
@@ -159,8 +159,9 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> AdaptiveContactSteps<'k, K, I, E>
         let (steps, events) = steps.parted();
         let steps = AdaptiveContactSteps { steps, relative, absolute, shortest, limit };
         let stepper = steps.stepper((interval.start, start.0, start.1))?;
-        let (lengths, passing) = (Lengths::new(steps.steps.h, shortest), Passing::new(interval.start, interval.end));
-        let mut on_way = OnWay { steps, events, stepper, lengths, passing, until: 0.0, end: interval.end, fresh: true };
+        let (lengths, passing) = (Lengths::new(steps.steps.h, shortest), EventWatch::new(interval.start, interval.end));
+        let mut on_way =
+            AdaptiveDriver { steps, events, stepper, lengths, passing, until: 0.0, end: interval.end, fresh: true };
         on_way.go(interval.start, made)
     }
 
@@ -253,12 +254,12 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> AdaptiveContactSteps<'k, K, I, E>
 }
 
 /// A run on its way.
-struct OnWay<'k, K: ContactSystem<Scalar = f64>, I, E> {
+struct AdaptiveDriver<'k, K: ContactSystem<Scalar = f64>, I, E> {
     steps: AdaptiveContactSteps<'k, K, I>,
     events: E,
     stepper: ContactStepper<'k, K>,
     lengths: Lengths,
-    passing: Passing,
+    passing: EventWatch,
     /// Until when controllers hold what they give.
     until: f64,
     end: f64,
@@ -266,7 +267,7 @@ struct OnWay<'k, K: ContactSystem<Scalar = f64>, I, E> {
     fresh: bool,
 }
 
-impl<'k, K: ContactSystem<Scalar = f64>, I: InputSource<K>, E: Events<K>> OnWay<'k, K, I, E> {
+impl<'k, K: ContactSystem<Scalar = f64>, I: InputSource<K>, E: Events<K>> AdaptiveDriver<'k, K, I, E> {
     fn go(&mut self, start: f64, made: &mut SteppedRun<'k, K>) -> Result<(), ContactError> {
         let (holds, limit) = (self.steps.steps.input.held().is_some(), self.steps.limit);
         sampling::begin::<K, E>(&mut self.events, holds, (start, self.end), Some(limit))?;
@@ -324,23 +325,23 @@ impl<'k, K: ContactSystem<Scalar = f64>, I: InputSource<K>, E: Events<K>> OnWay<
         made.samples.push(StepSample::of(stepper));
         part(stepper);
         match passing.look(events, made)? {
-            Seen::On => made.statistics.keep(&trial),
-            Seen::Ended => {
+            EventOutcome::On => made.statistics.keep(&trial),
+            EventOutcome::Ended => {
                 made.statistics.keep(&trial);
                 return Ok(true);
             }
-            Seen::TooLong => {
+            EventOutcome::TooLong => {
                 made.samples.pop();
                 made.statistics.rejected += 1;
                 stepper.restore(before);
                 lengths.next = NEARER * h;
                 return Ok(false);
             }
-            Seen::Fails(kind) => {
+            EventOutcome::Fails(kind) => {
                 made.samples.pop();
                 return Err(jumps::error(&problem(made.kernel, &steps.steps.input), &made.last_state(), kind));
             }
-            Seen::Jumps(number, near) => {
+            EventOutcome::Jumps(number, near) => {
                 let mut kept = trial;
                 let again = &mut |h: f64| {
                     stepper.restore(before);

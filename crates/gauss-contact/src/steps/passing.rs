@@ -26,7 +26,7 @@ const ROUNDINGS: f64 = 4.0;
 const TRIALS: u32 = 200;
 
 /// A function that is on zero, after the jump of its event.
-struct Leaving {
+struct ZeroDeparture {
     number: usize,
     /// Values below are zero.
     rounding: f64,
@@ -35,24 +35,24 @@ struct Leaving {
 }
 
 /// The events of a run in steps, as they follow each other.
-pub(super) struct Passing {
+pub(super) struct EventWatch {
     jumps: Jumps,
-    leaving: Vec<Leaving>,
+    leaving: Vec<ZeroDeparture>,
     /// After a step that ended on the wrong side of zero: the event, and the mean rate of its function.
     wrong: Option<(usize, f64)>,
 }
 
 /// An event in a step.
-struct Found<K: ContactSystem<Scalar = f64>> {
+struct StepEvent<K: ContactSystem<Scalar = f64>> {
     passage: Passage<K>,
     ends: bool,
     jumps: bool,
 }
 
 /// All that is seen in a step.
-struct Seen<K: ContactSystem<Scalar = f64>> {
+struct StepEvents<K: ContactSystem<Scalar = f64>> {
     /// In order of time.
-    found: Vec<Found<K>>,
+    found: Vec<StepEvent<K>>,
     /// Functions that have left zero.
     left: Vec<usize>,
     /// A function that has not been led back at the end of the step, with its mean rate.
@@ -62,7 +62,7 @@ struct Seen<K: ContactSystem<Scalar = f64>> {
 }
 
 /// Consequences of the events of a step.
-pub(super) enum Verdict {
+pub(super) enum EventOutcome {
     /// The run goes on.
     On,
     /// It has ended there.
@@ -85,7 +85,7 @@ fn value_of<K: ContactSystem<Scalar = f64>, E: Events<K>>(events: &mut E, event:
     value
 }
 
-impl Passing {
+impl EventWatch {
     /// Before a run.
     pub(super) fn new(start: f64, end: f64) -> Self {
         Self { jumps: Jumps::new::<f64>(start, end), leaving: Vec::new(), wrong: None }
@@ -97,39 +97,39 @@ impl Passing {
         &mut self,
         events: &mut E,
         made: &mut SteppedRun<'_, K>,
-    ) -> Result<Verdict, ContactError> {
+    ) -> Result<EventOutcome, ContactError> {
         if !E::ANY {
-            return Ok(Verdict::On);
+            return Ok(EventOutcome::On);
         }
         let seen = self.seen(events, made)?;
         match (core::mem::replace(&mut self.wrong, seen.wrong), seen.wrong) {
             // In a shorter step a flight that is too short for both goes on at a lesser rate.
             (Some((before, rate)), Some((event, after))) if before == event && after.abs() > 0.5 * rate.abs() => {
-                return Ok(Verdict::Fails(self.goes_on(event, after)));
+                return Ok(EventOutcome::Fails(self.goes_on(event, after)));
             }
-            (_, Some(_)) => return Ok(Verdict::TooLong),
+            (_, Some(_)) => return Ok(EventOutcome::TooLong),
             (Some((event, _)), None) if seen.stays.contains(&event) => {
                 let interval = made.last_state().t - made.before(made.samples.len() - 1).t;
-                return Ok(Verdict::Fails(IntegrationErrorKind::Zeno { event, interval }));
+                return Ok(EventOutcome::Fails(IntegrationErrorKind::Zeno { event, interval }));
             }
             (_, None) => {}
         }
         let first = seen.found.iter().find(|found| found.jumps || found.ends);
-        if let Some(Found { passage, jumps: true, .. }) = first {
-            return Ok(Verdict::Jumps(passage.number, passage.sample.t));
+        if let Some(StepEvent { passage, jumps: true, .. }) = first {
+            return Ok(EventOutcome::Jumps(passage.number, passage.sample.t));
         }
         self.leaving.retain(|leaving| !seen.left.contains(&leaving.number));
-        for Found { passage, ends, .. } in seen.found {
+        for StepEvent { passage, ends, .. } in seen.found {
             made.passages.push(passage);
             if ends {
                 made.stopped_by = Some(passage.number);
                 if let Some(last) = made.samples.last_mut() {
                     last.state = passage.sample;
                 }
-                return Ok(Verdict::Ended);
+                return Ok(EventOutcome::Ended);
             }
         }
-        Ok(Verdict::On)
+        Ok(EventOutcome::On)
     }
 
     /// A jump that lets its function go on.
@@ -155,7 +155,7 @@ impl Passing {
             // What the states in between have in another order.
             let earlier = self.seen(events, made)?.found.into_iter().find(|found| found.jumps || found.ends);
             match earlier {
-                Some(Found { passage, jumps: true, .. })
+                Some(StepEvent { passage, jumps: true, .. })
                     if passage.number != first.0 && passage.sample.t < last.state.t - resolution(&last.state) =>
                 {
                     made.samples.pop();
@@ -178,8 +178,8 @@ impl Passing {
         let Some(last) = made.samples.last().cloned() else { return Ok(false) };
         let end = last.state;
         let mut here = Vec::new();
-        let Seen { found, stays, .. } = self.seen(events, made)?;
-        for Found { passage, ends, jumps } in found {
+        let StepEvents { found, stays, .. } = self.seen(events, made)?;
+        for StepEvent { passage, ends, jumps } in found {
             let at_end = jumps || passage.sample.t >= end.t - resolution(&end);
             let passage = if at_end { Passage { sample: end, ..passage } } else { passage };
             made.passages.push(passage);
@@ -224,7 +224,7 @@ impl Passing {
                 // What no velocity turns back, such as the time, is not meant to be.
                 let leads_back = mark.jumps() && changed && !mark.may_go_on();
                 let leads_back = leads_back && is_of_the_configuration(problem, function, 0, &state);
-                leaving.push(Leaving { number, rounding, back: leads_back.then_some((start, rate)) });
+                leaving.push(ZeroDeparture { number, rounding, back: leads_back.then_some((start, rate)) });
             }
             number += 1;
         });
@@ -235,8 +235,8 @@ impl Passing {
         &self,
         events: &mut E,
         made: &SteppedRun<'_, K>,
-    ) -> Result<Seen<K>, ContactError> {
-        let mut seen = Seen { found: Vec::new(), left: Vec::new(), wrong: None, stays: Vec::new() };
+    ) -> Result<StepEvents<K>, ContactError> {
+        let mut seen = StepEvents { found: Vec::new(), left: Vec::new(), wrong: None, stays: Vec::new() };
         let Some((last, earlier)) = made.samples.split_last() else { return Ok(seen) };
         let before = earlier.last().map_or(made.start, |step| step.state);
         let (mut number, mut defined) = (0, true);
@@ -245,8 +245,8 @@ impl Passing {
             let (start, end) = (at(&before), at(&last.state));
             defined &= !start.is_nan() && !end.is_nan();
             match self.leaving.iter().find(|leaving| leaving.number == number) {
-                Some(Leaving { rounding, .. }) if end.abs() <= *rounding => seen.stays.push(number),
-                Some(Leaving { back, .. }) => {
+                Some(ZeroDeparture { rounding, .. }) if end.abs() <= *rounding => seen.stays.push(number),
+                Some(ZeroDeparture { back, .. }) => {
                     if back.is_some_and(|(side, _)| (side < 0.0) != (end < 0.0)) {
                         seen.wrong = seen.wrong.or(Some((number, end / (last.state.t - before.t))));
                     }
@@ -264,7 +264,7 @@ impl Passing {
                         }
                     }
                     let (ends, jumps) = (mark.ends_the_run(), mark.jumps());
-                    seen.found.push(Found { passage: Passage { number, sample: beyond }, ends, jumps });
+                    seen.found.push(StepEvent { passage: Passage { number, sample: beyond }, ends, jumps });
                 }
                 None => {}
             }

@@ -10,7 +10,7 @@ use crate::error::{ContactError, ContactErrorKind};
 use crate::{jumps, sampling};
 
 use super::made::{StepSample, SteppedRun};
-use super::passing::{Passing, Verdict};
+use super::passing::{EventOutcome, EventWatch};
 use super::relaxed::StepLaw;
 use super::report::StepScheme;
 use super::stepper::ContactStepper;
@@ -29,8 +29,8 @@ pub(super) fn problem<'k, K: ContactSystem, I: InputSource<K>>(
     SystemProblem::new(kernel).input_from(Feedback(input))
 }
 
-/// How far a step of a run has come.
-enum Reached {
+/// The end of a step of a run.
+enum StepEnd {
     /// To where it was to end.
     Target,
     /// To a jump, or not as far after one.
@@ -215,7 +215,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
         let whole = count as u64;
         let count = whole + u64::from(count > whole as f64);
         let h = (end - start) / count as f64;
-        let (mut stepper, mut passing) = (self.stepper((start, q0, z0))?, Passing::new(start, end));
+        let (mut stepper, mut passing) = (self.stepper((start, q0, z0))?, EventWatch::new(start, end));
         sampling::begin::<K, E>(&mut self.events, self.input.held().is_some(), (start, end), self.limit)?;
         let (mut until, mut steps) = (self.sample(&stepper, end)?, 0);
         for n in 1..=count {
@@ -234,13 +234,13 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
                 length = if is_cut { until - stepper.t } else { length };
                 let target = if E::SAMPLED && rest >= -rounding { until } else { end_of_step };
                 let reached = self.advance(&mut stepper, &mut passing, (length, target), made)?;
-                if matches!(reached, Reached::End) {
+                if matches!(reached, StepEnd::End) {
                     return Ok(());
                 }
                 if E::SAMPLED && stepper.t == until && until < end {
                     until = self.sample(&stepper, end)?;
                 }
-                if matches!(reached, Reached::Target) && !is_cut {
+                if matches!(reached, StepEnd::Target) && !is_cut {
                     break;
                 }
                 length = end_of_step - stepper.t;
@@ -254,10 +254,10 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
     fn advance(
         &mut self,
         stepper: &mut ContactStepper<'k, K>,
-        passing: &mut Passing,
+        passing: &mut EventWatch,
         (length, target): (f64, f64),
         made: &mut SteppedRun<'k, K>,
-    ) -> Result<Reached, ContactError>
+    ) -> Result<StepEnd, ContactError>
     where
         I: InputSource<K>,
         E: Events<K>,
@@ -271,15 +271,17 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
             }
             made.samples.push(StepSample::of(stepper));
             let verdict = passing.look(&mut self.events, made)?;
-            let (Some(before), Verdict::TooLong | Verdict::Fails(_) | Verdict::Jumps(..)) = (&before, &verdict) else {
+            let (Some(before), EventOutcome::TooLong | EventOutcome::Fails(_) | EventOutcome::Jumps(..)) =
+                (&before, &verdict)
+            else {
                 return Ok(match verdict {
-                    Verdict::Ended => Reached::End,
-                    _ if tried == length => Reached::Target,
-                    _ => Reached::Before,
+                    EventOutcome::Ended => StepEnd::End,
+                    _ if tried == length => StepEnd::Target,
+                    _ => StepEnd::Before,
                 });
             };
             match verdict {
-                Verdict::Jumps(number, near) => {
+                EventOutcome::Jumps(number, near) => {
                     let again = &mut |length: f64| {
                         stepper.restore(before);
                         stepper.step(length, &held(&self.input, stepper, length))?;
@@ -287,20 +289,20 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
                     };
                     let ended = passing.jump((&mut self.events, &problem), made, (number, near), again)?;
                     if ended {
-                        return Ok(Reached::End);
+                        return Ok(StepEnd::End);
                     }
                     return self.restart(stepper, made, target);
                 }
-                Verdict::TooLong => {
+                EventOutcome::TooLong => {
                     made.samples.pop();
                     stepper.restore(before);
                     tried *= SHORTER;
                 }
-                Verdict::Fails(kind) => {
+                EventOutcome::Fails(kind) => {
                     made.samples.pop();
                     return Err(jumps::error(&problem, &made.last_state(), kind));
                 }
-                Verdict::On | Verdict::Ended => {}
+                EventOutcome::On | EventOutcome::Ended => {}
             }
         }
     }
@@ -311,14 +313,14 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
         stepper: &mut ContactStepper<'k, K>,
         made: &SteppedRun<'k, K>,
         target: f64,
-    ) -> Result<Reached, ContactError> {
+    ) -> Result<StepEnd, ContactError> {
         let Sample { t, q, z, .. } = made.last_state();
         *stepper = self.stepper((t, q, z))?;
         let is_there = target - t <= ROUNDINGS * f64::EPSILON * target.abs();
         if is_there {
             stepper.t = target;
         }
-        Ok(if is_there { Reached::Target } else { Reached::Before })
+        Ok(if is_there { StepEnd::Target } else { StepEnd::Before })
     }
 
     /// Lets controllers sample where the steps are; until when they hold what they give.
