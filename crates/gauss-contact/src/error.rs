@@ -305,11 +305,8 @@ impl ContactErrorKind {
 impl fmt::Display for ContactErrorKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NegativeGap { .. }
-            | Self::JumpPenetrates { .. }
-            | Self::Penetration { .. }
-            | Self::Projection(_)
-            | Self::Strikes { .. } => self.of_gaps(f),
+            Self::NegativeGap { .. } | Self::JumpPenetrates { .. } | Self::Penetration { .. } => self.of_gaps(f),
+            Self::Projection(_) | Self::Strikes { .. } => self.of_gaps(f),
             Self::InvalidRestitution { restitution } => {
                 write!(f, "the coefficient of restitution is {restitution}; it must be between 0 and 1")
             }
