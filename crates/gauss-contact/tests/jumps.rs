@@ -19,6 +19,9 @@ struct Block<T> {
 
 type State = SVector<f64, 2>;
 
+/// A function whose zeros are events.
+type EventFunction = fn(f64, &State, &State) -> f64;
+
 fn block(mu: f64, e: f64) -> BlockKernel<f64> {
     Block { mu, e }.kernel().expect("a block")
 }
@@ -280,7 +283,7 @@ fn derivatives_pass_through_jumps() {
     let kernel = Block { mu: dmu, e: Four::constant(0.0) }.kernel().unwrap();
     let run = Simulation::new(&kernel)
         .event(Crossing::Rising, move |_, q: &SVector<Four, 2>, _| q[0] - ds)
-        .then_through(move |state: &mut Sample<BlockKernel<Four>>| state.z[0] = state.z[0] + dw)
+        .then_through(move |state: &mut Sample<BlockKernel<Four>>| state.z[0] += dw)
         .adaptive(1e-12, 1e-12)
         .contact_events();
     let [zero, four] = [0.0, 4.0].map(Four::constant);
@@ -299,7 +302,7 @@ fn derivatives_pass_through_jumps() {
 fn refused(
     kernel: &BlockKernel<f64>,
     (q, z): (State, State),
-    (crossing, function): (Crossing, fn(f64, &State, &State) -> f64),
+    (crossing, function): (Crossing, EventFunction),
     jump: fn(&mut Sample<BlockKernel<f64>>),
 ) -> [gauss_contact::ContactError; 3] {
     let ready = || Simulation::new(kernel).event(crossing, function).then(jump);

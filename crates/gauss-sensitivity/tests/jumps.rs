@@ -57,7 +57,7 @@ fn closed_form<T: Real>([height, kept, g]: [T; 3], t: f64) -> [T; 2] {
         if s.lane(0) < flight.lane(0) {
             return [v * s - g * s * s / two, v - g * s];
         }
-        since = since + flight;
+        since += flight;
     }
 }
 
@@ -73,7 +73,7 @@ fn a_bouncing_ball_has_the_derivatives_of_its_closed_form() {
     let mut cost = Dual::<3>::constant(0.0);
     for (number, point) in points.iter().enumerate().skip(1) {
         let [height, speed] = closed_form(variables, point.t);
-        cost = cost + Dual::constant(number as f64) * (height * height + speed);
+        cost += Dual::constant(number as f64) * (height * height + speed);
         // Some ten tolerances, of slopes up to 10.
         assert!((point.q[0] - height.value).abs() < 1e-10 && (point.z[0] - speed.value).abs() < 1e-10);
         for k in 0..3 {
