@@ -23,8 +23,8 @@ pub struct Description {
     pub joints: Vec<String>,
     /// Contacts, ranges and dry joints, in the order of their rows.
     pub contacts: Vec<ContactDescription>,
-    /// Where velocities of contact impulses come from halves of A⁻¹Wᵀ: the count of their first numbers, the pivots of
-    /// A and what is below them. Numbers of rows follow.
+    /// The count of the first numbers of the halves of A⁻¹Wᵀ, the pivots of A and what is below them, where velocities
+    /// of contact impulses come from halves. Numbers of rows follow.
     pub factors: Option<usize>,
     /// Whether nothing but contacts can raise the energy.
     pub keeps_energy: bool,

@@ -328,9 +328,7 @@ impl fmt::Display for ContactErrorKind {
             | Self::StiffSprings { .. }
             | Self::EnergyFromNowhere { .. }
             | Self::TooManySteps { .. } => self.of_steps(f),
-            Self::NonFinite => {
-                f.write_str("gaps, rates, coefficients, or forces, also those of inputs, are not finite")
-            },
+            Self::NonFinite => f.write_str("gaps, rates, coefficients or forces (of inputs, too) are not finite"),
             Self::Inconsistent => f.write_str("no contact force agrees with rigid bodies and Coulomb's law (Painlevé)"),
             Self::Indeterminate => f.write_str("several motions agree with rigid bodies and Coulomb's law (Painlevé)"),
             Self::Unsolved { residual } => write!(

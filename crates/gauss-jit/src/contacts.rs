@@ -17,8 +17,8 @@ const OPEN: f64 = 1.0;
 
 /// A kernel with contacts as a [`ContactSystem`]: a [`System`] with room for R rows of contacts besides.
 ///
-/// Rows that the model does not have are zero, and no contact has them. Matrices of R rows are handed on by value: rooms
-/// that fit are faster.
+/// Rows that the model does not have are zero, and no contact has them. Matrices of R rows are handed on by value:
+/// rooms that fit are faster.
 #[derive(Clone, Copy, Debug)]
 pub struct SystemWithContacts<'k, const Q: usize, const Z: usize, I, const R: usize, const CONSTRAINED: bool = false> {
     system: System<'k, Q, Z, I, CONSTRAINED>,
@@ -27,7 +27,7 @@ pub struct SystemWithContacts<'k, const Q: usize, const Z: usize, I, const R: us
     described: &'k [ContactDescription],
     /// Number of the model's own rows.
     rows: usize,
-    /// Where A⁻¹Wᵀ comes in halves that there is room for, the numbers below the pivots of A among them.
+    /// The numbers below the pivots of A, where A⁻¹Wᵀ comes in halves that there is room for.
     below_pivots: Option<(usize, usize)>,
     /// Count of the numbers of these halves.
     halves: usize,

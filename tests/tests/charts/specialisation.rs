@@ -1,6 +1,6 @@
 //! What each element that acts costs: the operation counts of one body as elements are switched on, one at a time, and
-//! the table of them in docs/benchmarks/operations.md. That a clause leaves nothing behind when it is taken out again is tested where
-//! the code is made, in `gauss-codegen/src/emit/specialisation_tests.rs`.
+//! the table of them in docs/benchmarks/operations.md. That a clause leaves nothing behind when it is taken out again
+//! is tested where the code is made, in `gauss-codegen/src/emit/specialisation_tests.rs`.
 
 use std::fmt::Write as _;
 

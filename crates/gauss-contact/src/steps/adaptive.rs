@@ -39,8 +39,9 @@ const LONGER: f64 = 4.0;
 const NEARER: f64 = 0.25;
 /// The shortest step at impacts unless said otherwise, as a part of the longest.
 const SHORTEST: f64 = 1e-3;
-/// Times within half of a step at which the input is looked at beside its middle, which is held, as parts of it.
-const LOOKS: [f64; 4] = [0.0, 0.25, 0.75, 1.0];
+/// Times within half of a step at which the input is looked at beside its start, as parts of it. Its end is one of
+/// them: what begins before it is seen as long as it lasts from there to the next.
+const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 /// Roundings of the time that a step takes at least.
 const ROUNDINGS: f64 = 16.0;
 const MOST_STEPS: u64 = 10_000_000;
@@ -64,9 +65,9 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
     /// thousandth of it: see [`shortest`](AdaptiveContactSteps::shortest). What a contact does after an impact is off
     /// by what it does in such a time.
     ///
-    /// An input is held during half of a step, as [`input`](ContactSteps::input) says; where it changes with the state
-    /// that is of first order, and steps are as short as it asks for. It is looked at eight times in a step: a push that
-    /// is shorter than an eighth of the longest step may be missed.
+    /// An input is held during half of a step, as it is at the start of that; where it changes with time or state, that
+    /// is of first order, and steps are as short as it asks for. It is looked at eight times in a step: a push that is
+    /// shorter than an eighth of the longest step may be missed.
     pub fn adaptive(self, relative: f64, absolute: f64) -> AdaptiveContactSteps<'k, K, I, E> {
         let (shortest, limit) = (SHORTEST * self.h, self.limit.unwrap_or(MOST_STEPS));
         AdaptiveContactSteps { steps: self, relative, absolute, shortest, limit }
@@ -183,16 +184,18 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> AdaptiveContactSteps<'k, K, I, E>
     where
         I: InputSource<K>,
     {
-        stepper.step(h, &held(&self.steps.input, stepper, h))?;
+        // At the start, and not at the middle, where steps of one length take it: with that, edges of pushes took minutes.
+        let input = |stepper: &ContactStepper<'k, K>| held(&self.steps.input, stepper, 0.0);
+        stepper.step(h, &input(stepper))?;
         let (whole, in_parts) = (stepper.kept(), stepper.report.parts > 0);
         let (mut impacts, closure) = (stepper.report.impacts, stepper.report.closure);
         stepper.restore(before);
         let unheld = self.unheld(stepper, h);
-        let first = stepper.step(0.5 * h, &held(&self.steps.input, stepper, 0.5 * h))?;
+        let first = stepper.step(0.5 * h, &input(stepper))?;
         let of_first = stepper.impulses;
         let middle = stepper.kept();
         let unheld = unheld.add_scaled(1.0, &self.unheld(stepper, h));
-        let second = stepper.step(0.5 * h, &held(&self.steps.input, stepper, 0.5 * h))?;
+        let second = stepper.step(0.5 * h, &input(stepper))?;
         let end = stepper.kept();
         impacts += first.impacts + second.impacts;
         // At the start what contacts do is not known yet.
@@ -225,7 +228,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> AdaptiveContactSteps<'k, K, I, E>
         }
         let (t, q, z) = (stepper.t, &stepper.q, &stepper.z);
         let acceleration = |at: f64| stepper.kernel.acceleration(t, q, z, &self.steps.input.input(at, q, z));
-        let held = acceleration(t + 0.25 * h);
+        let held = acceleration(t);
         for part in LOOKS {
             let other = acceleration(t + 0.5 * h * part).add_scaled(-1.0, &held);
             let part = 0.5 * h / LOOKS.len() as f64;
