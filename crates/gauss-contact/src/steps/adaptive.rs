@@ -184,7 +184,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> AdaptiveContactSteps<'k, K, I, E>
     where
         I: InputSource<K>,
     {
-        // At the start, and not at the middle, where steps of one length take it: with that, edges of pushes took minutes.
+        // At the start, not at the middle as in steps of one length: with that, edges of pushes took minutes.
         let input = |stepper: &ContactStepper<'k, K>| held(&self.steps.input, stepper, 0.0);
         stepper.step(h, &input(stepper))?;
         let (whole, in_parts) = (stepper.kept(), stepper.report.parts > 0);
