@@ -38,7 +38,7 @@ fn law<T: Real>() -> impl FnMut(T, &SVector<T, 1>, &SVector<T, 1>) -> SVector<T,
     let (mut before, mut sum) = (None::<T>, T::zero());
     move |t, q, _| {
         let [stiff, slow, little] = [6.0, 12.0, 0.5].map(T::from_f64);
-        sum = sum + q[0];
+        sum += q[0];
         let change = q[0] - before.replace(q[0]).unwrap_or(q[0]);
         SVector::from([-(stiff * q[0] + slow * change + little * sum) + T::from_f64(0.1) * t])
     }
