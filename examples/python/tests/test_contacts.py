@@ -209,7 +209,8 @@ def test_controllers_in_steps_of_contacts(puck):
     held = {}
 
     def holds(t, q, z):
-        return held.setdefault(round((t - 0.2) / 1e-3) // 20, 3.0 * (1.0 - z)[:1] + 2.0)
+        # The time is that at the middle of a step.
+        return held.setdefault(int((t - 0.2) / 1e-3) // 20, 3.0 * (1.0 - z)[:1] + 2.0)
 
     alone = puck.simulate(*start, (0.2, 1.2), input=holds, **how)
     assert np.array_equal(run.q, alone.q) and np.array_equal(run["floor force"][1:], alone["floor force"][1:])
