@@ -154,10 +154,7 @@ pub(crate) fn all<K: ContactSystem, P: Problem<System = K>, E: Events<K>>(
 
 /// The first of some events that ends the run.
 pub(crate) fn first_end<K: ContactSystem, E: Events<K>>(events: &mut E, among: &[usize]) -> Option<usize> {
-    let (mut ends, mut number) = (Vec::new(), 0);
-    events.each(&mut |_, mark| {
-        ends.push(mark.ends_the_run());
-        number += 1;
-    });
-    among.iter().copied().find(|&event| event < number && ends[event])
+    let mut ends = Vec::new();
+    events.each(&mut |_, mark| ends.push(mark.ends_the_run()));
+    among.iter().copied().find(|&event| ends.get(event) == Some(&true))
 }

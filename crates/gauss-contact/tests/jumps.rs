@@ -35,7 +35,7 @@ fn blow(speed: f64) -> impl FnMut(&mut Sample<BlockKernel<f64>>) + Clone {
     move |state| state.z[0] += speed
 }
 
-/// What stuck slides for v/(μ g) and sticks again: places, forces, the history, the account of the energy.
+/// A block that stuck slides for v/(μ g) and sticks again: places, forces, the history, the account of the energy.
 #[test]
 fn a_blow_sets_what_sticks_sliding() {
     let kernel = block(0.5, 0.0);

@@ -2,6 +2,7 @@
 //! the rows of contacts.
 
 use gauss_codegen::description::ContactDescription;
+use gauss_runtime::__private_0_1_0::impulse_terms_of_halves;
 use gauss_runtime::contact::{
     Contact, ContactFrame, ContactSystem, ImpulseDynamics, ImpulseResponse, impulse_terms, impulse_velocities,
 };
@@ -235,12 +236,7 @@ impl<const Q: usize, const Z: usize, I: Inputs, const R: usize, const CONSTRAINE
     fn impulse_terms(&self, factors: &Self::ImpulseFactors, impulses: &Self::ContactRows) -> Self::Speeds {
         match self.below_pivots {
             None => impulse_terms::<Self>(factors, impulses),
-            Some((pivots, rows)) => {
-                let (mut sizes, impulses) = (factors.abs(), impulses.abs());
-                // What is taken away below the pivots is made negative: then nothing cancels.
-                sizes.as_mut_slice()[pivots..rows].iter_mut().for_each(|size| *size = -*size);
-                self.velocities(self.halves(&sizes), &impulses.as_slice()[..self.rows])
-            }
+            Some((pivots, rows)) => impulse_terms_of_halves(self, (factors, impulses), pivots..rows),
         }
     }
 

@@ -151,8 +151,9 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
         self.with(|shown| shown.trace(body, point))
     }
 
-    /// Which way is up on the screen, observer's axes; without this k₃. In a scene whose k₃ points down, as those of
-    /// ships do, `[0.0, 0.0, -1.0]`; for motion in the plane of k₁ and k₂ with weight along −k₂, `[0.0, 1.0, 0.0]`.
+    /// The direction that is up on the screen, observer's axes; without this k₃. In a scene whose k₃ points down, as
+    /// those of ships do, `[0.0, 0.0, -1.0]`; for motion in the plane of k₁ and k₂ with weight along −k₂,
+    /// `[0.0, 1.0, 0.0]`.
     #[must_use]
     pub fn up(self, direction: [f64; 3]) -> Self {
         self.with(|shown| shown.up(direction))

@@ -125,8 +125,9 @@ impl Recording {
         self
     }
 
-    /// Which way is up on the screen, observer's axes; without this k₃. In a scene whose k₃ points down, as those of
-    /// ships do, `[0.0, 0.0, -1.0]`; for motion in the plane of k₁ and k₂ with weight along −k₂, `[0.0, 1.0, 0.0]`.
+    /// The direction that is up on the screen, observer's axes; without this k₃. In a scene whose k₃ points down, as
+    /// those of ships do, `[0.0, 0.0, -1.0]`; for motion in the plane of k₁ and k₂ with weight along −k₂,
+    /// `[0.0, 1.0, 0.0]`.
     #[must_use]
     pub fn up(mut self, direction: [f64; 3]) -> Self {
         if !page::can_be_shown(&direction) || direction == [0.0; 3] {

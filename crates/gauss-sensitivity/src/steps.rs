@@ -29,8 +29,8 @@ pub trait Steps: sealed::Sealed {
         h: S::Scalar,
     ) -> Result<State<S>, IntegrationErrorKind>;
 
-    /// From a state to a time, by steps as long as they are chosen: `reached` is told the times at which they end, and
-    /// whether the state jumps there. Where the function of an event passes through zero it jumps, or the run ends
+    /// Carries a state to a time, by steps as long as they are chosen: `reached` is told the times at which they end,
+    /// and whether the state jumps there. Where the function of an event passes through zero it jumps, or the run ends
     /// there; whether it did.
     #[doc(hidden)]
     fn drive<S, I, E, J>(

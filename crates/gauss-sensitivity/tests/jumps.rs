@@ -12,7 +12,7 @@ struct Ball<T> {
     g: T,
 }
 
-/// By the height from which it falls, the part of its speed that a bounce keeps, and weight.
+/// Derivatives by the height from which it falls, the part of its speed that a bounce keeps, and weight.
 struct Bounces;
 
 impl Run<3> for Bounces {
@@ -101,7 +101,8 @@ struct Pendulum<T> {
     c: T,
 }
 
-/// By length, drag, what a bounce keeps and how far the wall swings, by which the time of a bounce enters the jump.
+/// Derivatives by length, drag, the part that a bounce keeps and how far the wall swings, by which the time of a bounce
+/// enters the jump.
 struct Wall;
 
 /// The angle of the wall and its rate.

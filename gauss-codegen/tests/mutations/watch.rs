@@ -38,7 +38,7 @@ fn process(numbers: Range<u64>, faults: &mut Vec<(u64, String)>) -> Option<(u64,
         command.arg("-c").arg(format!("ulimit -v {MEMORY}; exec \"$0\" \"$@\"")).arg(&program);
     }
     command
-        .args(["--exact", "derives_what_it_is_asked_for", "--ignored", "--nocapture"])
+        .args(["--exact", "no_input_is_too_much", "--nocapture"])
         .envs([("MUTATIONS_FROM", numbers.start.to_string()), ("MUTATIONS_TO", numbers.end.to_string())])
         .stdout(Stdio::piped())
         .stderr(Stdio::null());

@@ -9,13 +9,13 @@ use crate::real::Real;
 
 /// The sizes of the terms of velocities of impulses: what the same substitution makes of the sizes of its numbers, with
 /// those that are taken away, below the pivots, made negative: then nothing cancels.
-pub fn impulse_terms_of_halves<T: Real, S, const F: usize, const R: usize>(
+pub fn impulse_terms_of_halves<T: Real, S, const F: usize, const C: usize, const R: usize>(
     system: &S,
-    (factors, impulses): (&SVector<T, F>, &SVector<T, R>),
+    (factors, impulses): (&SMatrix<T, F, C>, &SVector<T, R>),
     below: Range<usize>,
 ) -> S::Speeds
 where
-    S: ContactSystem<Scalar = T, ImpulseFactors = SVector<T, F>, ContactRows = SVector<T, R>>,
+    S: ContactSystem<Scalar = T, ImpulseFactors = SMatrix<T, F, C>, ContactRows = SVector<T, R>>,
 {
     let mut sizes = *factors;
     sizes.iter_mut().for_each(|x| *x = Real::abs(*x));

@@ -51,13 +51,13 @@ struct StepEvent<K: ContactSystem<Scalar = f64>> {
 
 /// All that is seen in a step.
 struct StepEvents<K: ContactSystem<Scalar = f64>> {
-    /// In order of time.
+    /// The events, in order of time.
     found: Vec<StepEvent<K>>,
     /// Functions that have left zero.
     left: Vec<usize>,
     /// A function that has not been led back at the end of the step, with its mean rate.
     wrong: Option<(usize, f64)>,
-    /// Functions that have not.
+    /// Functions that have not left it.
     stays: Vec<usize>,
 }
 

@@ -31,11 +31,11 @@ pub(super) fn problem<'k, K: ContactSystem, I: InputSource<K>>(
 
 /// The end of a step of a run.
 enum StepEnd {
-    /// To where it was to end.
+    /// The step came to where it was to end.
     Target,
-    /// To a jump, or not as far after one.
+    /// The step came to a jump, or not as far after one.
     Before,
-    /// To the end of the run.
+    /// The run has ended.
     End,
 }
 
