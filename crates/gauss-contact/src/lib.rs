@@ -61,15 +61,16 @@ extern crate alloc;
 // rows), `impulses` (their solver) with `unknowns` and `equations` over `linear`, `passing` (functions of the user
 // within a step), `made` (the record of steps), `projection` (the end of a step, within `bounds`, over `least`),
 // `speeds` (the speeds of its forces), `stiffness` (how much these change with places), `springs` (what steps without a
-// memory refuse), `gain` (the energy of its impacts), `account` (that of a run), `stepper` and `outcome` (what an
-// attempt came to), `held` (between steps, while contacts change), `report`, `run`; `relaxed`, the other law, and
-// `adaptive`, steps that keep a tolerance. `lanes`: several states at once in packs, `together`: a step of all of them,
-// whose laws (`posed`, the laws of a step as a problem) are generic in the scalar and know by `lockstep` whether lanes
-// decide alike; `rounds`, what one lane tries alone. `ensemble`: many on threads. `changeover`: from `run` to `steps`
-// and back. `slots`: contacts that come at run time: `slot`, `place` (how it moves), `envelope` (A), `system`.
-// Derivatives of a step: `motion` (its formulas in any scalar), `watch` (what a step decided), `followed` (the same
-// step in dual numbers, over `active`, the laws of contacts that act), `edges` (contacts at a change), `derivatives`;
-// `kept` (a state to go back to).
+// memory refuse), `gain` (the energy of its impacts), `account` (that of a run), `step` (one step, in any scalar and
+// whoever decides, over the formulas of `motion`), `stepper` (decides by the values of one state) and `outcome` (what
+// an attempt came to), `held` (between steps, while contacts change), `report`, `run`; `relaxed`, the other law, and
+// `adaptive`, steps that keep a tolerance. `lanes`: several states at once in packs; `together` decides for all of
+// them, by laws (`posed`, the laws of a step as a problem) that are generic in the scalar and know by `lockstep`
+// whether lanes decide alike, or lane by lane; `rounds`, what one lane tries alone. `ensemble`: many on threads.
+// `changeover`: from `run` to `steps` and back. `slots`: contacts that come at run time: `slot`, `place` (how it
+// moves), `envelope` (A), `system`. Derivatives of a step: `watch` (what a step decided), `followed` (decides as it did,
+// in dual numbers, over `active`, the laws of contacts that act), `edges` (contacts at a change), `derivatives`; `kept`
+// (a state to go back to).
 mod action;
 mod balance;
 mod ball;

@@ -6,7 +6,6 @@ use gauss_runtime::contact::{Contact, ContactSystem};
 use crate::law::carrier;
 
 use super::bounds::gaps_of;
-use super::motion;
 use super::stepper::ContactStepper;
 
 impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
@@ -22,11 +21,6 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
     pub(super) fn flies(&self) -> bool {
         let contacts = self.kernel.contacts();
         (0..contacts.len()).all(|i| contacts[carrier(contacts, i)].has_gap() && !self.modes[i].is_closed())
-    }
-
-    /// The mean speeds of a flight to others.
-    pub(super) fn mean_of_flight(&self, z: &K::Speeds) -> K::Speeds {
-        motion::mean(&self.z, z)
     }
 
     /// Whether a gap would not be open at the end of a step, given its mean rates.

@@ -8,7 +8,6 @@ use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::contact::{Contact, ContactSystem, ImpulseDynamics};
 use gauss_runtime::dual::Dual;
 use gauss_runtime::forces::Columns;
-use gauss_runtime::system::GaussSystem;
 
 use crate::dense::Matrix;
 use crate::error::ContactErrorKind;
@@ -17,11 +16,12 @@ use crate::lockstep::Lockstep;
 use crate::mode::{Mode, after_impulses};
 
 use super::active::{Active, LEFT, NOTHING, Solvable, inverse, largest_slope, multiplied};
-use super::bounds::Touched;
+use super::bounds::{Touched, contact_at};
 use super::edges::{self, AtChange, Known};
 use super::motion::{self, Mean, Middle, Rule};
 use super::projection::{Closed, Projection};
 use super::report::StepScheme;
+use super::step::{Contacted, Decisions, Moved, Step, StepDynamics, Stopped};
 use super::watch::{Part, Taken};
 
 /// A state with derivatives.
@@ -66,8 +66,8 @@ pub(super) fn part<const N: usize, L: ContactSystem<Scalar = Dual<N>>>(
     let plain = |used: L::Speeds| Middle::new((t, h), half, z, used);
     let to_mean = |way: L::Speeds, used| plain(used).with_mean(kernel, (t, h), (&state.q, way), used);
     let attempt = |same: &mut Same, taken: &Taken, middle: Middle<L>| {
-        let attempt = Attempt { kernel, input, state, middle, t: part.t, h };
-        attempt.end(taken, same)
+        let step = Step { kernel, h, end: number(part.t + h), z: &z, middle: &middle };
+        Replay { state, t: part.t, taken, same }.end(&step, input)
     };
     let foreseen = match (scheme, state.acceleration) {
         (StepScheme::Midpoint, Some(acceleration)) => z.add_scaled(number(0.5 * h), &acceleration),
@@ -127,192 +127,108 @@ fn with_values_of<const N: usize, V: VectorSpace<Dual<N>>>(values: &V, slopes: &
     both
 }
 
-/// One attempt at a part of a step.
-struct Attempt<'a, L: ContactSystem> {
-    kernel: &'a L,
-    input: &'a L::Input,
+/// Decisions of an attempt at a part of a step, which follow one that was made.
+struct Replay<'a, L: ContactSystem> {
     state: &'a State<L>,
-    middle: Middle<L>,
     t: f64,
-    h: f64,
+    taken: &'a Taken,
+    same: &'a mut Same,
 }
 
-/// The end of an attempt: the configuration and the speeds.
-type Moved<L> = Result<(<L as GaussSystem>::Configuration, <L as GaussSystem>::Speeds), ContactErrorKind>;
+/// Impulses with derivatives, and what contacts that act begin with.
+struct Replayed<const N: usize, L: ContactSystem> {
+    impulses: L::ContactRows,
+    /// Rates before the part.
+    before: L::ContactRows,
+    /// Rates that contacts with restitution pass on.
+    passes: Vec<Option<Dual<N>>>,
+}
 
-impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
-    fn end(&self, taken: &Taken, same: &mut Same) -> Moved<L> {
-        match &taken.modes {
-            None => self.flight(same),
-            Some(modes) => self.touching(taken, modes, same),
+impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Replay<'_, L> {
+    /// The end of an attempt.
+    fn end(&mut self, step: &Step<L>, input: &L::Input) -> Result<Moved<L>, ContactErrorKind> {
+        if self.taken.modes.is_none()
+            && let Some((end, _)) = step.flight(input, self)?
+        {
+            return Ok(end);
         }
+        step.touching(input, self).map(|Contacted { closed, stopped, .. }| (closed.q, stopped.0))
     }
 
-    fn flight(&self, same: &mut Same) -> Moved<L> {
-        let Self { kernel, input, state, middle, h, .. } = self;
-        let acceleration = kernel.acceleration(middle.t, &middle.q, &middle.z, input);
-        let z = state.z.add_scaled(Dual::constant(*h), &acceleration);
-        if same.looks && same.at_change.is_none() {
-            let t = Dual::constant(self.t);
-            let gaps = kernel.gaps(t, &state.q);
-            let rates = [state.z, z].map(|z| kernel.contact_rates(middle.t, &middle.q, &z));
-            let known = Known {
-                contacts: self.kernel.contacts(),
-                gaps: &|i| gaps.component(i).value,
-                restitution: &|_| 0.0,
-                before: &|row| rates[0].component(row).value,
-                free: &|row| rates[1].component(row).value,
-                h: *h,
-                tolerance: same.tolerance,
-            };
-            same.at_change = known.in_flight();
-        }
-        self.second_half(z)
+    /// Whether changes of modes are looked for.
+    fn looks(&self) -> bool {
+        self.same.looks && self.same.at_change.is_none()
     }
 
-    fn second_half(&self, z: L::Speeds) -> Moved<L> {
-        let Self { kernel, middle, .. } = self;
-        let rate = kernel.kinematics(middle.t, &middle.half, &z);
-        let end = motion::second_half(*kernel, (Dual::constant(self.t), self.h), middle, (z, &rate));
-        end.map_err(ContactErrorKind::Projection)
+    /// Mode of a contact after the attempt.
+    fn mode(&self, i: usize) -> Mode {
+        self.taken.modes.as_ref().map_or(Mode::Open, |modes| modes[i])
     }
 
-    fn touching(&self, taken: &Taken, modes: &[Mode], same: &mut Same) -> Moved<L> {
-        let Self { kernel, input, state, middle, h, .. } = self;
-        let friction = kernel.friction(middle.t, &middle.q, &middle.z, input);
-        let dynamics = kernel.impulse_dynamics(middle.t, &middle.q, &middle.z, input);
-        let t = Dual::constant(self.t);
-        let before = kernel.contact_rates(t, &state.q, &state.z);
-        let free = state.z.add_scaled(Dual::constant(*h), &dynamics.acceleration);
-        let free_and_bias = (&free, &dynamics.bias);
-        let rates = motion::free_rates(
-            *kernel,
-            *h,
-            middle,
-            (&state.z, &before),
-            free_and_bias,
-            (taken.dependent, |i| taken.opened[i]),
-        );
-        let gaps = kernel.gaps(t, &state.q);
-        let passes = self.passes(same.tolerance, &gaps, &rates);
-        let active = self.active((modes, &passes), (&friction, &dynamics), rates[1]);
-        let impulses: Vec<Dual<N>> = taken.impulses.iter().copied().map(Dual::constant).collect();
-        if same.solvable.len() == same.solved {
-            same.solvable.push(active.solvable(modes, &impulses));
-        }
-        if same.looks && same.at_change.is_none() {
-            let e = kernel.restitution();
-            let known = Known {
-                contacts: self.kernel.contacts(),
-                gaps: &|i| gaps.component(i).value,
-                restitution: &|i| e.component(i).value,
-                before: &|row| rates[0].component(row).value,
-                free: &|row| rates[1].component(row).value,
-                h: *h,
-                tolerance: same.tolerance,
-            };
-            same.at_change = known.among(modes, &active, &impulses);
-        }
-        let part = ROUNDING + 100.0 * same.tolerance;
-        let impulses = active.solve((&same.solvable[same.solved], part), impulses)?;
-        same.solved += 1;
-        let mut rows = L::ContactRows::zero();
-        impulses.iter().enumerate().for_each(|(row, impulse)| rows.set_component(row, *impulse));
-        let z = after_impulses(&Lockstep::default(), *kernel, &free, (&dynamics.response.factors, &rows));
-        let (q, z) = self.second_half(z)?;
-        self.projected((q, z), (&dynamics, [&rows, &before]), (taken, modes, &passes), same)
+    /// The contact at a change of its mode, from gaps before the step and rates before and without impulses after it.
+    fn at_change(
+        &self,
+        step: &Step<L>,
+        [before, free]: [&L::ContactRows; 2],
+        find: impl FnOnce(&Known) -> Option<AtChange>,
+    ) -> Option<AtChange> {
+        let gaps = step.kernel.gaps(Dual::constant(self.t), &self.state.q);
+        let e = step.kernel.restitution();
+        find(&Known {
+            contacts: step.kernel.contacts(),
+            gaps: &|i| gaps.component(i).value,
+            restitution: &|i| e.component(i).value,
+            before: &|row| before.component(row).value,
+            free: &|row| free.component(row).value,
+            h: step.h,
+            tolerance: self.same.tolerance,
+        })
     }
 
     /// The rates that contacts with restitution pass on, whose gaps do not open before the step, or are closed by
     /// others alone. Of an approach of zero derivatives are those of an approach.
-    fn passes(&self, tolerance: f64, gaps: &L::Gaps, rates: &[L::ContactRows; 2]) -> Vec<Option<Dual<N>>> {
-        let (e, [before, free]) = (self.kernel.restitution(), rates);
+    fn passes(&self, step: &Step<L>, rates: &[L::ContactRows; 2]) -> Vec<Option<Dual<N>>> {
+        let (e, [before, free]) = (step.kernel.restitution(), rates);
+        let gaps = step.kernel.gaps(Dual::constant(self.t), &self.state.q);
         let size = |row: usize| before.component(row).value.abs().max(free.component(row).value.abs());
-        let nothing = tolerance * (0..L::ContactRows::DIM).map(size).fold(0.0, f64::max);
+        let nothing = self.same.tolerance * (0..L::ContactRows::DIM).map(size).fold(0.0, f64::max);
         let fastest = motion::fastest::<L>(rates).value;
         let of = |(i, contact): (usize, &Contact)| {
             let [before, free] = [before, free].map(|rates| rates.component(contact.normal));
-            let end = gaps.component(i).value + 0.5 * self.h * (before.value + free.value);
+            let end = gaps.component(i).value + 0.5 * step.h * (before.value + free.value);
             let e = e.component(i);
             let passes = before.value <= nothing || motion::reversed(before.value, end, fastest) > 0.0;
             (contact.has_gap() && e.value > 0.0 && passes).then_some(-e * before)
         };
-        self.kernel.contacts().iter().enumerate().map(of).collect()
+        step.kernel.contacts().iter().enumerate().map(of).collect()
     }
 
-    /// The contacts that act, from friction and rates before the step and after it without impulses.
+    /// The contacts that act, from friction and rates after the step without impulses.
     fn active<'d>(
         &self,
-        (modes, passes): (&[Mode], &[Option<Dual<N>>]),
-        (friction, dynamics): (&L::ContactRows, &'d ImpulseDynamics<L>),
+        &StepDynamics { step, friction, impulses, .. }: &StepDynamics<'d, L>,
+        passes: &[Option<Dual<N>>],
         mut free: L::ContactRows,
     ) -> Active<'d, L> {
-        for (i, contact) in self.kernel.contacts().iter().enumerate().filter(|(_, contact)| contact.has_gap()) {
-            if let (true, Some(passed)) = (modes[i].is_closed(), passes[i]) {
+        let contacts = step.kernel.contacts();
+        for (i, contact) in contacts.iter().enumerate().filter(|(_, contact)| contact.has_gap()) {
+            if let (true, Some(passed)) = (self.mode(i).is_closed(), passes[i]) {
                 free.set_component(contact.normal, free.component(contact.normal) - passed);
             }
         }
         Active {
-            contacts: self.kernel.contacts(),
-            delassus: &dynamics.response.delassus,
+            contacts,
+            delassus: &impulses.response.delassus,
             b: (0..L::ContactRows::DIM).map(|row| free.component(row)).collect(),
-            bounds: self.kernel.contacts().iter().map(|contact| Bounds::of(contact, friction)).collect(),
-            h: self.h,
+            bounds: contacts.iter().map(|contact| Bounds::of(contact, friction)).collect(),
+            h: step.h,
         }
-    }
-
-    /// Closed gaps, their rates and the slips of what sticks at zero, with their derivatives.
-    fn projected(
-        &self,
-        (q, z): (L::Configuration, L::Speeds),
-        (dynamics, [impulses, rates]): (&ImpulseDynamics<L>, [&L::ContactRows; 2]),
-        (taken, modes, passes): (&Taken, &[Mode], &[Option<Dual<N>>]),
-        same: &mut Same,
-    ) -> Moved<L> {
-        let (kernel, t) = (self.kernel, Dual::constant(self.t + self.h));
-        let mut memory = vec![Dual::constant(0.0); Projection::<L>::MEMORY];
-        let mut projection = Projection::new(kernel, &mut memory);
-        let before = kernel.gaps(t, &q);
-        let touched = Touched { closed: &taken.closed, impulses, rates, h: self.h };
-        let closed = projection.close((t, q, before), (&dynamics.response, motion::magnitude(&q)), &touched);
-        let Closed { mut q, gaps, .. } = closed.map_err(|not_closed| not_closed.kind)?;
-        if same.looks && same.at_change.is_none() {
-            let nothing = same.tolerance * self.h * (1.0 + z.max_norm());
-            same.at_change = edges::of_gaps(kernel, (&before, &gaps), &taken.rests, nothing);
-        }
-        let held = |(i, _): &(usize, &Contact)| projection.held[*i];
-        let normals: Vec<usize> =
-            self.kernel.contacts().iter().enumerate().filter(held).map(|(_, contact)| contact.normal).collect();
-        let gap_of =
-            |row: usize| self.kernel.contacts().iter().position(|contact| contact.normal == row && contact.has_gap());
-        let gap = |gaps: &L::Gaps, row: usize| gap_of(row).map_or(Dual::constant(0.0), |i| gaps.component(i));
-        let zero = L::Speeds::zero();
-        let moved = self.cancelling((t, &q), dynamics, &normals, |row| gap(&gaps, row));
-        let still = kernel.kinematics(t, &q, &zero);
-        q = q.advance(&kernel.kinematics(t, &q, &moved).add_scaled(Dual::constant(-1.0), &still));
-        let after = kernel.gaps(t, &q);
-        let gone = |row: &usize| [gap(&after, *row), gap(&gaps, *row)];
-        is_gone(normals.iter().map(gone), 1.0)?;
-
-        let mode = |i: usize| if taken.rests[i] { modes[i] } else { Mode::Open };
-        let rates = kernel.contact_rates(t, &q, &z);
-        let (mut z, rates) = projection.stop((t, &q, z, rates), &dynamics.response, (mode, Dual::constant(0.0)));
-        let stopped: Vec<usize> =
-            self.kernel.contacts().iter().enumerate().flat_map(|(i, contact)| stopped(contact, &mode(i))).collect();
-        let passed = |row: usize| gap_of(row).and_then(|i| passes[i]).unwrap_or(Dual::constant(0.0));
-        let by = self.cancelling((t, &q), dynamics, &stopped, |row| rates.component(row) - passed(row));
-        z = z.add_scaled(Dual::constant(1.0), &by);
-        let after = kernel.contact_rates(t, &q, &z);
-        let speeds = z.max_norm().max(self.state.z.max_norm());
-        is_gone(stopped.iter().map(|row| [after.component(*row) - passed(*row), rates.component(*row)]), speeds)?;
-        Ok((q, z))
     }
 
     /// The change of speeds by impulses in these rows that takes away what is left of the derivatives of their rates.
     fn cancelling(
-        &self,
-        (t, q): (Dual<N>, &L::Configuration),
-        dynamics: &ImpulseDynamics<L>,
+        StepDynamics { step, impulses, .. }: &StepDynamics<L>,
+        q: &L::Configuration,
         rows: &[usize],
         rate: impl Fn(usize) -> Dual<N>,
     ) -> L::Speeds {
@@ -320,8 +236,8 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
         if rows.is_empty() {
             return sum;
         }
-        let jacobian = self.kernel.contact_jacobian(t, q);
-        let columns = self.kernel.contact_columns(&dynamics.response.factors);
+        let jacobian = step.kernel.contact_jacobian(step.end, q);
+        let columns = step.kernel.contact_columns(&impulses.response.factors);
         let product = |i: usize, j: usize| {
             let (Some(row), Some(column)) = (jacobian.nth(rows[i]), columns.nth(rows[j])) else { return 0.0 };
             (0..L::Speeds::DIM).map(|k| row.component(k).value * column.component(k).value).sum::<f64>()
@@ -335,6 +251,106 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
             }
         }
         sum
+    }
+}
+
+impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Decisions<L> for Replay<'_, L> {
+    type Pushed = Replayed<N, L>;
+    type Refusal = ContactErrorKind;
+
+    fn stays_open(&mut self, step: &Step<L>, z: &L::Speeds) -> Result<bool, ContactErrorKind> {
+        if self.looks() {
+            let middle = step.middle;
+            let [before, free] = [step.z, z].map(|z| step.kernel.contact_rates(middle.t, &middle.q, z));
+            self.same.at_change = self.at_change(step, [&before, &free], |known| known.in_flight());
+        }
+        Ok(true)
+    }
+
+    fn push(&mut self, at: &StepDynamics<L>) -> Result<(Replayed<N, L>, L::Speeds), ContactErrorKind> {
+        let StepDynamics { step, free, impulses: ImpulseDynamics { bias, response, .. }, .. } = at;
+        let (kernel, taken) = (step.kernel, self.taken);
+        let before = kernel.contact_rates(Dual::constant(self.t), &self.state.q, &self.state.z);
+        let decided = (taken.dependent, |i: usize| taken.opened[i]);
+        let rates = motion::free_rates(kernel, step.h, step.middle, (&self.state.z, &before), (free, bias), decided);
+        let passes = self.passes(step, &rates);
+        let active = self.active(at, &passes, rates[1]);
+        let impulses: Vec<Dual<N>> = taken.impulses.iter().copied().map(Dual::constant).collect();
+        let modes = taken.modes.as_deref().unwrap_or_default();
+        if self.same.solvable.len() == self.same.solved {
+            self.same.solvable.push(active.solvable(modes, &impulses));
+        }
+        if self.looks() {
+            let among = |known: &Known| known.among(modes, &active, &impulses);
+            self.same.at_change = self.at_change(step, [&rates[0], &rates[1]], among);
+        }
+        let part = ROUNDING + 100.0 * self.same.tolerance;
+        let solved = active.solve((&self.same.solvable[self.same.solved], part), impulses)?;
+        self.same.solved += 1;
+        let mut impulses = L::ContactRows::zero();
+        solved.iter().enumerate().for_each(|(row, impulse)| impulses.set_component(row, *impulse));
+        let z = after_impulses(&Lockstep::default(), kernel, free, (&response.factors, &impulses));
+        Ok((Replayed { impulses, before, passes }, z))
+    }
+
+    fn project(&mut self, step: &Step<L>, (q, z): Moved<L>) -> Result<Moved<L>, ContactErrorKind> {
+        step.kernel.project(step.end, &q, &z).map_err(ContactErrorKind::Projection)
+    }
+
+    /// Closed gaps at zero, with their derivatives.
+    fn close(
+        &mut self,
+        at: &StepDynamics<L>,
+        pushed: &mut Replayed<N, L>,
+        (q, z): &Moved<L>,
+    ) -> Result<Closed<L>, ContactErrorKind> {
+        let StepDynamics { step: Step { kernel, h, end: t, .. }, impulses, .. } = at;
+        let (kernel, t, taken) = (*kernel, *t, self.taken);
+        let mut memory = vec![Dual::constant(0.0); Projection::<L>::MEMORY];
+        let mut projection = Projection::new(kernel, &mut memory);
+        let touched = Touched { closed: &taken.closed, impulses: &pushed.impulses, rates: &pushed.before, h: *h };
+        let closed = projection.close((t, *q), &impulses.response, &touched);
+        let closed = closed.map_err(|not_closed| not_closed.kind)?;
+        if self.looks() {
+            let nothing = self.same.tolerance * h * (1.0 + z.max_norm());
+            self.same.at_change = edges::of_gaps(kernel, (&kernel.gaps(t, q), &closed.gaps), &taken.rests, nothing);
+        }
+        let held = kernel.contacts().iter().enumerate().filter(|(i, _)| projection.held[*i]);
+        let normals: Vec<usize> = held.map(|(_, contact)| contact.normal).collect();
+        let gap =
+            |gaps: &L::Gaps, row: usize| contact_at(kernel, row).map_or(Dual::constant(0.0), |i| gaps.component(i));
+        let moved = Self::cancelling(at, &closed.q, &normals, |row| gap(&closed.gaps, row));
+        let still = kernel.kinematics(t, &closed.q, &L::Speeds::zero());
+        let moved = kernel.kinematics(t, &closed.q, &moved).add_scaled(Dual::constant(-1.0), &still);
+        let q = closed.q.advance(&moved);
+        let after = kernel.gaps(t, &q);
+        is_gone(normals.iter().map(|row| [gap(&after, *row), gap(&closed.gaps, *row)]), 1.0)?;
+        Ok(Closed { q, ..closed })
+    }
+
+    /// Rates of closed gaps, and slips of what sticks, at zero with their derivatives.
+    fn stop(
+        &mut self,
+        at: &StepDynamics<L>,
+        (pushed, Closed { q, .. }): (&Replayed<N, L>, &Closed<L>),
+        (z, rates): Stopped<L>,
+    ) -> Result<Stopped<L>, ContactErrorKind> {
+        let (kernel, t) = (at.step.kernel, at.step.end);
+        let mut memory = vec![Dual::constant(0.0); Projection::<L>::MEMORY];
+        let mut projection = Projection::new(kernel, &mut memory);
+        let mode = |i: usize| if self.taken.rests[i] { self.mode(i) } else { Mode::Open };
+        let (z, rates) = projection.stop((t, q, z, rates), &at.impulses.response, (mode, Dual::constant(0.0)));
+        let each = kernel.contacts().iter().enumerate();
+        let stopped: Vec<usize> = each.flat_map(|(i, contact)| stopped(contact, &mode(i))).collect();
+        let passed = |row| contact_at(kernel, row).and_then(|i| pushed.passes[i]).unwrap_or(Dual::constant(0.0));
+        let z = z.add_scaled(
+            Dual::constant(1.0),
+            &Self::cancelling(at, q, &stopped, |row| rates.component(row) - passed(row)),
+        );
+        let after = kernel.contact_rates(t, q, &z);
+        let speeds = z.max_norm().max(self.state.z.max_norm());
+        is_gone(stopped.iter().map(|row| [after.component(*row) - passed(*row), rates.component(*row)]), speeds)?;
+        Ok((z, after))
     }
 }
 

@@ -1,30 +1,29 @@
-//! Steps of several states at once, in lockstep.
+//! Steps of several states at once.
 //!
-//! A kernel whose scalar is a pack ([`simd`](gauss_runtime::simd)) gives each lane the bits that it would get alone. As
-//! long as all lanes decide alike a step is made in packs from end to end (`together`). Where they do not, the kernel
-//! still works on all lanes at once, and the laws of that step are solved by the stepper of each lane: so a lane has
-//! the bits of a stepper of its own. Lanes that need something else than the others go that step alone: at the start
-//! and after impacts, where the step is made twice, where a flight ends, where a step is made again for its speeds, and
-//! where it is made in parts.
+//! A kernel whose scalar is a pack ([`simd`](gauss_runtime::simd)) gives each lane the bits that it would get alone. The
+//! kernel works on all lanes at once; as long as all decide alike their laws are solved in packs as well, else by the
+//! stepper of each lane (`together`): so a lane has the bits of a stepper of its own. Lanes that need something else
+//! than the others go that step alone: at the start and after impacts, where the step is made twice, where a flight
+//! ends, where a step is made again for its speeds, and where it is made in parts.
 
 use alloc::vec::Vec;
 
 use gauss_runtime::configuration::VectorSpace;
-use gauss_runtime::contact::{ContactSystem, ImpulseResponse};
-use gauss_runtime::integrate::problem::state::TangentOf;
+use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::real::Real;
 use gauss_runtime::simd::Packed;
-use gauss_runtime::system::GaussSystem;
 
 use crate::error::{ContactError, ContactErrorKind};
-use crate::mode::Mode;
 
 use super::impulses;
-use super::motion::Middle;
-use super::outcome::{Attempt, Pushed, Solved};
+use super::motion::{self, Middle};
+use super::outcome::{Attempt, Pushed};
 use super::projection::{Closed, Projection};
-use super::report::StepReport;
+use super::report::{StepReport, StepScheme};
+use super::step::{Contacted, Step};
 use super::stepper::ContactStepper;
+use super::together::{LaneDynamics, Together};
+use super::used::Used;
 
 /// A system in packs, each lane of which is the system `K`: `Kernel<wide::f64x8>` of a struct that is generic in its
 /// scalar, of which `K` is `Kernel<f64>`.
@@ -55,24 +54,17 @@ impl<W, K: ContactSystem<Scalar = f64>> LanesOf<K> for W where
 /// Both kernels are of the same struct with the same parameters, or lanes of the first have those of their own and
 /// steppers have kernels of their own ([`of`](Self::of)).
 pub struct ContactLanes<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> {
-    pub(super) wide: &'k W,
-    pub(super) steppers: Vec<ContactStepper<'k, K>>,
+    wide: &'k W,
+    steppers: Vec<ContactStepper<'k, K>>,
     /// Outcome of the last step, lane by lane.
-    pub(super) outcomes: Vec<Result<StepReport, ContactError>>,
-    /// Progress of the lanes in a step.
-    stages: Vec<Stage<K>>,
-    /// Responses to impulses, in lanes that solve their laws alone: large, so that they stay where they are.
-    responses: Vec<Option<ImpulseResponse<K>>>,
-    /// The state of all lanes in packs, where the last step was made in packs.
-    pub(super) packed: Option<PackedState<W>>,
-    /// The modes after a step in packs, and what the laws came to, lane by lane.
-    pub(super) solved: Vec<(K::EachContact<Mode>, Solved<K>)>,
+    outcomes: Vec<Result<StepReport, ContactError>>,
+    lanes: Vec<Lane<'k, K>>,
+    /// The state of all lanes in packs, where the last step was made in lockstep.
+    packed: Option<PackedState<W>>,
     /// Memory for the laws of all lanes.
-    pub(super) memory: Vec<W::Scalar>,
-    /// Whether contacts of a lane depended on one another before the step.
-    known: Vec<bool>,
+    memory: Vec<W::Scalar>,
     /// Lanes that do not go on.
-    pub(super) halted: Vec<bool>,
+    halted: Vec<bool>,
     alone: u64,
 }
 
@@ -92,48 +84,32 @@ pub(super) struct PackedState<W: ContactSystem> {
     pub(super) gaps: W::Gaps,
     pub(super) rates: W::ContactRows,
     pub(super) impulses: W::ContactRows,
+    /// Mean acceleration of the step before.
     pub(super) acceleration: W::Speeds,
 }
 
-/// State at which forces were taken, and the acceleration by them.
-type Forces<K> = (Middle<K>, <K as GaussSystem>::Speeds);
-
 /// Progress of a lane in a step.
-enum Stage<K: ContactSystem<Scalar = f64>> {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Stage {
     /// It goes this step alone.
     Alone,
-    /// The step is made.
-    Made,
-    /// It has the speeds at half of the step.
-    Middle(Middle<K>),
-    /// The same in flight.
-    Flies(Middle<K>),
-    /// It has the speeds at the end of a flight.
-    Flown(Forces<K>, K::Speeds),
-    /// At the end of a flight.
-    Lands(Forces<K>, K::Configuration, K::Speeds, K::Gaps),
-    /// It has impulses.
-    Pushed(Forces<K>, Pushed<K>),
-    /// At the end, before closed gaps are zero.
-    Open(Forces<K>, K::Configuration, K::Speeds, Pushed<K>),
-    /// It has closed gaps at zero.
-    Closed(Forces<K>, Closed<K>, K::Speeds, Pushed<K>),
+    /// No contact may act in it.
+    Flies,
+    /// Contacts may act in it.
+    Touches,
+    /// The step is made, or none is to be.
+    Done,
 }
 
-impl<K: ContactSystem<Scalar = f64>> core::fmt::Debug for Stage<K> {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str(match self {
-            Self::Alone => "Alone",
-            Self::Made => "Made",
-            Self::Middle(..) => "Middle",
-            Self::Flies(..) => "Flies",
-            Self::Flown(..) => "Flown",
-            Self::Lands(..) => "Lands",
-            Self::Pushed(..) => "Pushed",
-            Self::Open(..) => "Open",
-            Self::Closed(..) => "Closed",
-        })
-    }
+/// A lane in a step.
+pub(super) struct Lane<'k, K: ContactSystem<Scalar = f64>> {
+    pub(super) stage: Stage,
+    /// Whether contacts depended on one another before the step.
+    dependent: bool,
+    /// Motion without contacts, of a lane that decides alone: it is large, and stays where it is.
+    pub(super) dynamics: Option<LaneDynamics<'k, K>>,
+    pub(super) pushed: Option<Pushed<K>>,
+    pub(super) closed: Option<Closed<K>>,
 }
 
 impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
@@ -149,13 +125,11 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
             return Err(ContactError { contact: None, time: 0.0, kind });
         }
         let outcomes = steppers.iter().map(|_| Ok(StepReport::default())).collect();
-        let (stages, known) = (Vec::with_capacity(steppers.len()), Vec::with_capacity(steppers.len()));
+        let lane = || Lane { stage: Stage::Done, dependent: false, dynamics: None, pushed: None, closed: None };
+        let lanes = steppers.iter().map(|_| lane()).collect();
         let halted = steppers.iter().map(|_| false).collect();
-        let responses = steppers.iter().map(|_| None).collect();
         let memory = alloc::vec![W::Scalar::zero(); memory::<W>()];
-        let solved = Vec::with_capacity(steppers.len());
-        let (packed, alone) = (None, 0);
-        Ok(Self { wide, steppers, outcomes, stages, responses, packed, solved, memory, known, halted, alone })
+        Ok(Self { wide, steppers, outcomes, lanes, packed: None, memory, halted, alone: 0 })
     }
 
     /// The steppers, lane by lane.
@@ -181,247 +155,171 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
     /// One step of length `h` of all lanes, under inputs that stay; what it came to, lane by lane: as of
     /// [`ContactStepper::step`], bit by bit. A lane whose step is an error stays where it was.
     pub fn step(&mut self, h: f64, input: &W::Input) -> &[Result<StepReport, ContactError>] {
-        if self.step_together(h, input).is_some() {
-            return &self.outcomes;
-        }
-        self.packed = None;
-        self.start(h);
-        if self.stages.iter().any(|stage| matches!(stage, Stage::Middle(_) | Stage::Flies(_))) {
-            self.push(h, input);
-            self.fly(h, input);
-            self.second_half(h);
-            self.close(h);
-            self.end(h, input);
+        self.begin(h);
+        let packed = self.packed.take();
+        if self.lanes.iter().any(|lane| matches!(lane.stage, Stage::Flies | Stage::Touches)) {
+            let state = packed.unwrap_or_else(|| self.pack());
+            let half = motion::half_way::<W>(h, &state.q, &self.wide.kinematics(state.t, &state.q, &state.z));
+            let z = state.z.add_scaled(W::Scalar::from_f64(0.5 * h), &state.acceleration);
+            let middle = Middle::<W>::new((state.t, h), half, state.z, z);
+            let end = state.t + W::Scalar::from_f64(h);
+            let step = Step { kernel: self.wide, h, end, z: &state.z, middle: &middle };
+            self.touch(&step, &state, input);
+            self.fly(&step, &state, input);
         }
         for (lane, stepper) in self.steppers.iter_mut().enumerate() {
-            if matches!(self.stages[lane], Stage::Alone) {
+            if self.lanes[lane].stage == Stage::Alone {
                 self.alone += 1;
-                stepper.dependent = self.known[lane];
+                stepper.dependent = self.lanes[lane].dependent;
                 self.outcomes[lane] = stepper.step(h, &input.extract(lane));
             }
         }
         &self.outcomes
     }
 
-    /// A number of each lane; those without one repeat that of the first.
-    pub(super) fn number(&self, of: impl Fn(usize) -> f64) -> W::Scalar {
-        let mut pack = W::Scalar::repeat(&of(0));
-        (1..self.steppers.len()).for_each(|lane| pack.replace(lane, &of(lane)));
-        pack
-    }
-
-    pub(super) fn places(&self, of: impl Fn(usize) -> K::Configuration) -> W::Configuration {
-        let mut pack = W::Configuration::repeat(&of(0));
-        (1..self.steppers.len()).for_each(|lane| pack.replace(lane, &of(lane)));
-        pack
-    }
-
-    fn speeds(&self, of: impl Fn(usize) -> K::Speeds) -> W::Speeds {
-        self.vectors(of)
-    }
-
-    /// The numbers of all lanes; those without one repeat the first.
-    pub(super) fn vectors<V: VectorSpace<f64>, P: VectorSpace<W::Scalar>>(&self, of: impl Fn(usize) -> V) -> P {
-        let mut pack = P::zero();
-        for lane in 0..W::Scalar::WIDTH {
-            let vector = of(if lane < self.steppers.len() { lane } else { 0 });
-            put::<W, _, _>(&mut pack, lane, &vector);
-        }
-        pack
-    }
-
-    /// Half of the step, of lanes that go together.
-    fn start(&mut self, h: f64) {
-        self.stages.clear();
-        self.known.clear();
-        self.known.extend(self.steppers.iter().map(|stepper| stepper.dependent));
-        let Self { steppers, stages, halted, .. } = self;
-        let stage = |halted: &bool| if *halted { Stage::Made } else { Stage::Alone };
-        stages.extend(halted.iter().map(stage));
-        let together = |lane: usize| !halted[lane] && h > 0.0 && h.is_finite();
-        if !(0..steppers.len()).any(together) {
-            return;
-        }
-        let t = self.number(|lane| self.steppers[lane].t);
-        let q = self.places(|lane| self.steppers[lane].q);
-        let z = self.speeds(|lane| self.steppers[lane].z);
-        let rates = self.wide.kinematics(t, &q, &z);
-        let Self { steppers, stages, halted, .. } = self;
-        for (lane, (stepper, stage)) in steppers.iter().zip(stages).enumerate() {
-            if !halted[lane]
-                && !stepper.last.is_stiff()
-                && let (middle, true) = stepper.middle(h, &single::<W, _, TangentOf<K>>(&rates, lane))
-            {
-                *stage = if stepper.flies() { Stage::Flies(middle) } else { Stage::Middle(middle) };
-            }
-        }
-    }
-
-    /// The state of a lane at half of the step; of one that goes alone that before it.
-    fn middle(&self, lane: usize) -> (f64, K::Configuration, K::Speeds) {
-        match &self.stages[lane] {
-            Stage::Middle(middle) | Stage::Flies(middle) => (middle.t, middle.q, middle.z),
-            Stage::Flown((middle, _), z) => (middle.t, middle.q, *z),
-            Stage::Pushed((middle, _), pushed) => (middle.t, middle.q, pushed.z),
-            _ => (self.steppers[lane].t, self.steppers[lane].q, self.steppers[lane].z),
-        }
-    }
-
-    fn middles(&self) -> (W::Scalar, W::Configuration, W::Speeds) {
-        (
-            self.number(|lane| self.middle(lane).0),
-            self.places(|lane| self.middle(lane).1),
-            self.speeds(|lane| self.middle(lane).2),
-        )
-    }
-
-    /// Flights, as far as their speeds at the end.
-    fn fly(&mut self, h: f64, input: &W::Input) {
-        if !self.stages.iter().any(|stage| matches!(stage, Stage::Flies(_))) {
-            return;
-        }
-        let (t, q, z) = self.middles();
-        let accelerations = self.wide.acceleration(t, &q, &z, input);
+    /// Which lanes go together: those of which the speeds at half of the step are foreseen.
+    fn begin(&mut self, h: f64) {
         for (lane, stepper) in self.steppers.iter().enumerate() {
-            self.stages[lane] = match core::mem::replace(&mut self.stages[lane], Stage::Alone) {
-                Stage::Flies(middle) => {
-                    let acceleration = single::<W, _, K::Speeds>(&accelerations, lane);
-                    Stage::Flown((middle, acceleration), stepper.z.add_scaled(h, &acceleration))
-                }
-                other => other,
+            let is_foreseen = stepper.scheme == StepScheme::Midpoint && stepper.last.acceleration.is_some();
+            let stage = match (h > 0.0 && h.is_finite() && is_foreseen && !stepper.last.is_stiff(), stepper.flies()) {
+                _ if self.halted[lane] => Stage::Done,
+                (false, _) => Stage::Alone,
+                (true, true) => Stage::Flies,
+                (true, false) => Stage::Touches,
             };
-        }
-        let (t, q, _) = self.middles();
-        let mean = self.speeds(|lane| match &self.stages[lane] {
-            Stage::Flown(_, z) => self.steppers[lane].mean_of_flight(z),
-            _ => self.steppers[lane].z,
-        });
-        let rates = self.wide.contact_rates(t, &q, &mean);
-        for (lane, stepper) in self.steppers.iter().enumerate() {
-            let flown = matches!(self.stages[lane], Stage::Flown(..));
-            if flown && stepper.comes_to_zero(h, &single::<W, _, K::ContactRows>(&rates, lane)) {
-                self.stages[lane] = Stage::Alone;
-            }
+            let dependent = stepper.dependent;
+            self.lanes[lane] = Lane { stage, dependent, dynamics: None, pushed: None, closed: None };
         }
     }
 
-    /// Impulses, by the laws of each lane.
-    fn push(&mut self, h: f64, input: &W::Input) {
-        if !self.stages.iter().any(|stage| matches!(stage, Stage::Middle(_))) {
-            return;
+    /// The states of all lanes.
+    fn pack(&self) -> PackedState<W> {
+        let of = |lane: usize| &self.steppers[if lane < self.steppers.len() { lane } else { 0 }];
+        let (mut t, mut q) = (W::Scalar::repeat(&of(0).t), W::Configuration::repeat(&of(0).q));
+        for lane in 1..self.steppers.len() {
+            t.replace(lane, &of(lane).t);
+            q.replace(lane, &of(lane).q);
         }
-        let (t, q, z) = self.middles();
-        let friction = self.wide.friction(t, &q, &z, input);
-        let dynamics = self.wide.impulse_dynamics(t, &q, &z, input);
-        for (lane, stepper) in self.steppers.iter_mut().enumerate() {
-            let middle = match core::mem::replace(&mut self.stages[lane], Stage::Alone) {
-                Stage::Middle(middle) => middle,
-                other => {
-                    self.stages[lane] = other;
-                    continue;
-                }
-            };
-            let friction = single::<W, _, K::ContactRows>(&friction, lane);
-            let acceleration = single::<W, _, K::Speeds>(&dynamics.acceleration, lane);
-            let bias = single::<W, _, K::ContactRows>(&dynamics.bias, lane);
-            let response = self.responses[lane].insert(ImpulseResponse::new(
-                dynamics.response.factors.extract(lane),
-                dynamics.response.delassus.extract(lane),
-            ));
-            // Where it has no solution it is tried in parts, alone.
-            if let Ok(pushed) = stepper.push(h, &middle, &friction, (&acceleration, &bias, response)) {
-                self.stages[lane] = Stage::Pushed((middle, acceleration), pushed);
-            }
+        PackedState {
+            t,
+            q,
+            z: packed::<W, _, _>(|lane| of(lane).z),
+            gaps: packed::<W, _, _>(|lane| of(lane).gaps),
+            rates: packed::<W, _, _>(|lane| of(lane).rates),
+            impulses: packed::<W, _, _>(|lane| of(lane).impulses),
+            acceleration: packed::<W, _, _>(|lane| of(lane).last.acceleration.unwrap_or(of(lane).z)),
         }
     }
 
-    fn second_half(&mut self, h: f64) {
-        let (t, q, z) = self.middles();
-        let rates = self.wide.kinematics(t, &q, &z);
-        for (lane, stepper) in self.steppers.iter().enumerate() {
-            let rate = single::<W, _, TangentOf<K>>(&rates, lane);
-            let half = |middle: &Middle<K>, z: K::Speeds| stepper.second_half(h, middle, (z, &rate));
-            self.stages[lane] = match core::mem::replace(&mut self.stages[lane], Stage::Alone) {
-                Stage::Pushed(forces, pushed) => match half(&forces.0, pushed.z) {
-                    Ok((q, z)) => Stage::Open(forces, q, z, pushed),
-                    Err(_) => Stage::Alone,
-                },
-                Stage::Flown(forces, z) => match half(&forces.0, z) {
-                    Ok((q, z)) => Stage::Lands(forces, q, z, K::Gaps::zero()),
-                    Err(_) => Stage::Alone,
-                },
-                other => other,
-            };
+    /// Decisions of the lanes in a stage, if there are any.
+    fn together<'a>(&'a mut self, state: &'a PackedState<W>, stage: Stage) -> Option<Together<'a, 'k, W, K>> {
+        let Self { steppers, lanes, memory, .. } = self;
+        let in_lockstep = lanes.iter().all(|lane| lane.stage == stage);
+        let goes = lanes.iter().any(|lane| lane.stage == stage);
+        goes.then_some(Together { steppers, lanes, memory, state, stage, in_lockstep })
+    }
+
+    /// Lanes with contacts that may act.
+    fn touch(&mut self, step: &Step<W>, state: &PackedState<W>, input: &W::Input) {
+        let Some(mut decide) = self.together(state, Stage::Touches) else { return };
+        if let Ok(Contacted { pushed, closed, stopped: (z, rates), acceleration }) = step.touching(input, &mut decide) {
+            let (Closed { q, gaps, .. }, in_lockstep) = (closed, decide.in_lockstep);
+            let end = PackedState { t: step.end, q, z, gaps, rates, impulses: pushed, acceleration };
+            self.take(step, end, (Stage::Touches, in_lockstep), input);
         }
     }
 
-    /// The end of a step as far as it is known.
-    fn place(&self, lane: usize) -> (K::Configuration, K::Speeds) {
-        match &self.stages[lane] {
-            Stage::Open(_, q, z, _) | Stage::Lands(_, q, z, _) => (*q, *z),
-            Stage::Closed(_, closed, z, _) => (closed.q, *z),
-            _ => (self.steppers[lane].q, self.steppers[lane].z),
+    /// Lanes in flight.
+    fn fly(&mut self, step: &Step<W>, state: &PackedState<W>, input: &W::Input) {
+        let wide = self.wide;
+        let Some(mut decide) = self.together(state, Stage::Flies) else { return };
+        let Ok(Some(((q, z), acceleration))) = step.flight(input, &mut decide) else { return };
+        let gaps = wide.gaps(step.end, &q);
+        let below_zero =
+            |lane, kernel: &K| ContactStepper::<K>::is_below_zero(kernel, &single::<W, _, K::Gaps>(&gaps, lane));
+        if decide.each(|lane, stepper, _| (!below_zero(lane, stepper.kernel)).then_some(())).is_ok() {
+            let in_lockstep = decide.in_lockstep;
+            let (rates, impulses) = (wide.contact_rates(step.end, &q, &z), W::ContactRows::zero());
+            let end = PackedState { t: step.end, q, z, gaps, rates, impulses, acceleration };
+            self.take(step, end, (Stage::Flies, in_lockstep), input);
         }
     }
 
-    fn close(&mut self, h: f64) {
-        let t = self.number(|lane| self.steppers[lane].t + h);
-        let q = self.places(|lane| self.place(lane).0);
-        let gaps = self.wide.gaps(t, &q);
-        for (lane, stepper) in self.steppers.iter_mut().enumerate() {
-            let gaps = single::<W, _, K::Gaps>(&gaps, lane);
-            let response = &self.responses[lane];
-            self.stages[lane] = match (core::mem::replace(&mut self.stages[lane], Stage::Alone), response) {
-                (Stage::Open(forces, q, z, mut pushed), Some(response)) => {
-                    match stepper.close(h, (response, &mut pushed), (q, gaps)) {
-                        Ok(closed) => Stage::Closed(forces, closed, z, pushed),
-                        Err(_) => Stage::Alone,
-                    }
-                }
-                (Stage::Lands(..), _) if ContactStepper::<K, Vec<f64>>::is_below_zero(stepper.kernel, &gaps) => {
-                    Stage::Alone
-                }
-                (Stage::Lands(forces, q, z, _), _) => Stage::Lands(forces, q, z, gaps),
-                (other, _) => other,
-            };
-        }
-    }
-
-    fn end(&mut self, h: f64, input: &W::Input) {
-        let t = self.number(|lane| self.steppers[lane].t + h);
-        let q = self.places(|lane| self.place(lane).0);
-        let z = self.speeds(|lane| self.place(lane).1);
-        let rates = self.wide.contact_rates(t, &q, &z);
-        for (lane, stepper) in self.steppers.iter_mut().enumerate() {
-            let rates = single::<W, _, K::ContactRows>(&rates, lane);
-            let stage = core::mem::replace(&mut self.stages[lane], Stage::Alone);
-            let ((middle, acceleration), end) = match (stage, &self.responses[lane]) {
-                (Stage::Closed(forces, closed, z, pushed), Some(response)) => {
-                    let (z, rates) = stepper.stop(h, (response, &pushed), &closed, (z, rates));
-                    (forces, stepper.end(pushed, closed, (z, rates)))
-                }
-                (Stage::Lands(forces, q, z, gaps), _) => {
-                    (forces, ContactStepper::<K, Vec<f64>>::flown((q, z), gaps, rates))
-                }
-                (other, _) => {
-                    self.stages[lane] = other;
-                    continue;
+    /// Takes the end of a step in the lanes that are not to make it again, or in parts. The acceleration is that at
+    /// half of the step, without contacts.
+    fn take(&mut self, step: &Step<W>, end: PackedState<W>, (stage, in_lockstep): (Stage, bool), input: &W::Input) {
+        let (h, middle, mut at_mean) = (step.h, step.middle, None);
+        let mut goes_on = in_lockstep;
+        let each = self.steppers.iter_mut().zip(&mut self.lanes).enumerate();
+        for (lane, (stepper, of)) in each.filter(|(_, (_, of))| of.stage == stage) {
+            of.stage = Stage::Alone;
+            let at_end = (single::<W, _, K::Speeds>(&end.z, lane), single::<W, _, K::ContactRows>(&end.rates, lane));
+            let end_of_lane = match (of.pushed.take(), of.closed.take()) {
+                (Some(pushed), Some(closed)) => stepper.end(pushed, closed, at_end),
+                _ => {
+                    let gaps = single::<W, _, K::Gaps>(&end.gaps, lane);
+                    ContactStepper::<K>::flown((end.q.extract(lane), at_end.0), gaps, at_end.1)
                 }
             };
-            let (mut made, input) = (Attempt { end, acceleration }, input.extract(lane));
-            // A step that is made again, or in parts, goes alone.
-            let agrees = !stepper.stiffens(h, (&middle, &made), &input)
-                && stepper.steep(h, (&middle, &made), &input).is_none()
-                && stepper.strikes_stiffly(h, (&middle, &made), &input).is_none()
-                && stepper.agrees(h, (&middle, &made), &input);
-            let gain = (agrees && made.end.struck).then(|| stepper.gain(h, (&made, false), &input));
+            let mut made =
+                Attempt { end: end_of_lane, acceleration: single::<W, _, K::Speeds>(&end.acceleration, lane) };
+            let used = Used {
+                h,
+                least: stepper.least(h),
+                before: stepper.z,
+                used: single::<W, _, K::Speeds>(&middle.z, lane),
+                acceleration: made.acceleration,
+                after: made.end.z,
+            };
+            let is_smooth = stepper.last.may_stiffen(&used) == Some(false) && !used.is_rough() && !made.end.struck;
+            let input_of_lane = || input.extract(lane);
+            let agrees = if is_smooth {
+                used.is_plain() || {
+                    let mean = motion::mean(step.z, &end.z);
+                    let at_mean =
+                        at_mean.get_or_insert_with(|| self.wide.acceleration(middle.t, &middle.q, &mean, input));
+                    !used.grows(&single::<W, _, K::Speeds>(at_mean, lane))
+                }
+            } else {
+                stepper.is_taken(h, (&middle_of::<W, K>(middle, lane), &made), &input_of_lane())
+            };
+            let gain = (agrees && made.end.struck).then(|| stepper.gain(h, (&made, false), &input_of_lane()));
             made.end.report.unexplained = gain.as_ref().map_or(0.0, |gain| gain.unexplained);
             if agrees && gain.is_none_or(|gain| gain.is_little()) {
+                goes_on &= !made.end.struck;
                 self.outcomes[lane] = stepper.made(h, made);
-                self.stages[lane] = Stage::Made;
+                goes_on &= self.outcomes[lane].is_ok();
+                of.stage = Stage::Done;
+            } else {
+                goes_on = false;
             }
         }
+        if goes_on {
+            let acceleration = end.z.add_scaled(-W::Scalar::one(), step.z).scale(W::Scalar::from_f64(1.0 / h));
+            self.packed = Some(PackedState { acceleration, ..end });
+        }
     }
+}
+
+/// The state at half of a step of a lane.
+pub(super) fn middle_of<W: LanesOf<K>, K: ContactSystem<Scalar = f64>>(middle: &Middle<W>, lane: usize) -> Middle<K> {
+    Middle {
+        t: middle.t.lane(lane),
+        q: middle.q.extract(lane),
+        z: single::<W, _, K::Speeds>(&middle.z, lane),
+        half: middle.half.extract(lane),
+        way: single::<W, _, K::Speeds>(&middle.way, lane),
+        is_mean: middle.is_mean,
+    }
+}
+
+/// The numbers of all lanes.
+fn packed<W: ContactSystem<Scalar: Packed<Single = f64>>, V: VectorSpace<f64>, P: VectorSpace<W::Scalar>>(
+    of: impl Fn(usize) -> V,
+) -> P {
+    let mut pack = P::zero();
+    (0..W::Scalar::WIDTH).for_each(|lane| put::<W, _, _>(&mut pack, lane, &of(lane)));
+    pack
 }
 
 /// Number of numbers that the laws of all lanes need.

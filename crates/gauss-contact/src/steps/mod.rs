@@ -44,6 +44,7 @@ mod rounds;
 mod run;
 mod speeds;
 mod springs;
+mod step;
 mod stepper;
 mod stiffness;
 mod together;

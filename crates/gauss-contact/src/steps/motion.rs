@@ -1,7 +1,6 @@
 //! The formulas of a step in any scalar: what is left of it once it is known which contacts act.
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
-use gauss_runtime::constraint::ProjectionError;
 use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::Real;
@@ -94,18 +93,6 @@ pub(super) fn towards<T: Real, V: VectorSpace<T>>(used: &V, wanted: &V, part: f6
 /// Configuration to which half of a step leads with the rate of places before it.
 pub(super) fn half_way<K: ContactSystem>(h: f64, q: &K::Configuration, rate: &TangentOf<K>) -> K::Configuration {
     q.advance(&rate.scale(K::Scalar::from_f64(0.5 * h)))
-}
-
-/// The second half of a step, with the speeds after it and the rate of places by these, and what keeps bilateral
-/// constraints.
-pub(super) fn second_half<K: ContactSystem>(
-    kernel: &K,
-    (t, h): (K::Scalar, f64),
-    middle: &Middle<K>,
-    (z, rate): (K::Speeds, &TangentOf<K>),
-) -> Result<(K::Configuration, K::Speeds), ProjectionError> {
-    let q = half_way::<K>(h, &middle.half, rate);
-    if K::CONSTRAINED { kernel.project(t + K::Scalar::from_f64(h), &q, &z) } else { Ok((q, z)) }
 }
 
 /// Rates before a step, and at its end without contact impulses: to second order those there. Of contacts that may

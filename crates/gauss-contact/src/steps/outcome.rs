@@ -12,9 +12,8 @@ use super::relaxed::{StepLaw, lifts};
 use super::report::StepReport;
 use super::watch::Attempted;
 
-/// Speeds of a step after its impulses, with these.
+/// Impulses of a step.
 pub(super) struct Pushed<K: ContactSystem> {
-    pub(super) z: K::Speeds,
     pub(super) impulses: K::ContactRows,
     /// Whether rates were those of contacts that depend on one another.
     pub(super) dependent: bool,

@@ -10,6 +10,7 @@ use crate::mode::{Mode, after_impulses};
 
 use super::bounds::{Bounds, NotClosed, Touched, contact_at, gaps_of, lowest_of, not_closed};
 use super::linear::{Place, factorise_symmetric, solve_symmetric, stride};
+use super::motion;
 
 /// Parts of the diagonal by which a matrix is made regular where contacts depend on one another: corrections are
 /// repeated.
@@ -43,6 +44,14 @@ pub(crate) struct Closed<K: ContactSystem> {
     pub(crate) closure: K::Scalar,
     /// Contacts that were to be closed and are open: to close them asks for more than the step has done.
     pub(crate) left: K::EachContact<bool>,
+}
+
+impl<T: Real, K: ContactSystem<Scalar = T>> Closed<K> {
+    /// Places where no gap was to be closed.
+    pub(super) fn still(q: K::Configuration) -> Self {
+        let (zero, left) = (T::zero(), Each::from_fn(|_| false));
+        Self { q, gaps: K::Gaps::zero(), penetration: zero, closure: zero, left }
+    }
 }
 
 impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
@@ -106,8 +115,7 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
         impulses
     }
 
-    /// Gaps of contacts that are closed brought to zero, and no gap below it, from places with their gaps.
-    /// `magnitude`: how large numbers of the configuration are.
+    /// Gaps of contacts that are closed brought to zero, and no gap below it, from places at a time.
     ///
     /// Places move by the least in the metric of the kinetic energy, `Δ = A⁻¹Wᵀπ`. To push a contact open takes what
     /// it takes. To pull one shut, `π < 0`, there is a bound: its impulse P acted at half of the step in place of its
@@ -116,11 +124,12 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
     /// gap does alone, has not closed and is left open.
     pub(crate) fn close(
         &mut self,
-        (t, mut q, mut gaps): (T, K::Configuration, K::Gaps),
-        (response, magnitude): (&ImpulseResponse<K>, T),
+        (t, mut q): (T, K::Configuration),
+        response: &ImpulseResponse<K>,
         touched: &Touched<'_, K>,
     ) -> Result<Closed<K>, NotClosed> {
         let (kernel, zero, infinite) = (self.kernel, T::zero(), T::from_f64(f64::INFINITY));
+        let (mut gaps, magnitude) = (kernel.gaps(t, &q), motion::magnitude(&q));
         let lowest = |gaps: &K::Gaps| lowest_of(kernel, gaps);
         let (lowest_before, bounds) = (lowest(&gaps), Bounds::new(self.kernel, touched, &response.delassus, magnitude));
         self.held = Each::from_fn(|_| false);

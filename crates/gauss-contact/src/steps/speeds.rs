@@ -284,6 +284,14 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         self.used(h, middle, made).changes_beyond(FOLLOWED, [&of_places(&self.q), &of_places(&made.end.q)])
     }
 
+    /// Whether a step is taken as it was foreseen: not made again, nor refused or made in parts for its forces.
+    pub(super) fn is_taken(&self, h: f64, at: (&Middle<K>, &Attempt<K>), input: &K::Input) -> bool {
+        !self.stiffens(h, at, input)
+            && self.steep(h, at, input).is_none()
+            && self.strikes_stiffly(h, at, input).is_none()
+            && self.agrees(h, at, input)
+    }
+
     /// Whether speeds do not grow by forces that were taken at other speeds, or at other places where these are to be
     /// mean ones.
     pub(super) fn agrees(&self, h: f64, (middle, made): (&Middle<K>, &Attempt<K>), input: &K::Input) -> bool {

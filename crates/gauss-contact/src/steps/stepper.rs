@@ -26,6 +26,7 @@ use super::posed::Posed;
 use super::projection::{Closed, Projection};
 use super::relaxed::StepLaw;
 use super::report::{StepReport, StepScheme};
+use super::step::{Contacted, Decisions, Moved, Step, StepDynamics, Stopped};
 use super::stiffness::LastForces;
 use super::unknowns::Unknowns;
 use super::watch::Watch;
@@ -333,47 +334,23 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
 
     /// A step with forces that are taken at half of it.
     pub(super) fn attempt(&mut self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<Attempt<K>, ContactError> {
-        match self.flight(h, middle, input)? {
-            Some(made) => Ok(made),
-            None => self.touching(h, middle, input),
+        let (kernel, z) = (self.kernel, self.z);
+        let step = Step { kernel, h, end: self.t + h, z: &z, middle };
+        if self.flies()
+            && let Some((end, acceleration)) = step.flight(input, self)?
+        {
+            let gaps = kernel.gaps(step.end, &end.0);
+            if !Self::is_below_zero(kernel, &gaps) {
+                let rates = kernel.contact_rates(step.end, &end.0, &end.1);
+                return Ok(Attempt { end: Self::flown(end, gaps, rates), acceleration });
+            }
         }
+        let Contacted { pushed, closed, stopped, acceleration } = step.touching(input, self)?;
+        Ok(Attempt { end: self.end(pushed, closed, stopped), acceleration })
     }
 
     pub(super) fn error(&self, contact: Option<usize>, kind: ContactErrorKind) -> ContactError {
         ContactError { contact: contact.map(|i| self.kernel.contacts()[i].name), time: self.t, kind }
-    }
-
-    /// The second half of a step, given the rate of places, and what keeps bilateral constraints.
-    pub(super) fn second_half(
-        &self,
-        h: f64,
-        middle: &Middle<K>,
-        (z, rate): (K::Speeds, &TangentOf<K>),
-    ) -> Result<(K::Configuration, K::Speeds), ContactError> {
-        let end = motion::second_half(self.kernel, (self.t, h), middle, (z, rate));
-        end.map_err(|cause| self.error(None, ContactErrorKind::Projection(cause)))
-    }
-
-    /// A step in which no gap closes: the motion without contacts is all that it needs.
-    fn flight(&self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<Option<Attempt<K>>, ContactError> {
-        if !self.flies() {
-            return Ok(None);
-        }
-        let kernel = self.kernel;
-        let acceleration = kernel.acceleration(middle.t, &middle.q, &middle.z, input);
-        let z = self.z.add_scaled(h, &acceleration);
-        let mean = self.mean_of_flight(&z);
-        if self.comes_to_zero(h, &kernel.contact_rates(middle.t, &middle.q, &mean)) {
-            return Ok(None);
-        }
-        let half = kernel.kinematics(middle.t, &middle.half, &z);
-        let (q, z) = self.second_half(h, middle, (z, &half))?;
-        let gaps = kernel.gaps(self.t + h, &q);
-        if Self::is_below_zero(kernel, &gaps) {
-            return Ok(None);
-        }
-        let rates = kernel.contact_rates(self.t + h, &q, &z);
-        Ok(Some(Attempt { end: Self::flown((q, z), gaps, rates), acceleration }))
     }
 
     /// The end of a step in flight.
@@ -396,92 +373,20 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         }
     }
 
-    /// A step in which contacts may act.
-    fn touching(&mut self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<Attempt<K>, ContactError> {
-        let (kernel, t) = (self.kernel, self.t + h);
-        let friction = kernel.friction(middle.t, &middle.q, &middle.z, input);
-        let dynamics = kernel.impulse_dynamics(middle.t, &middle.q, &middle.z, input);
-        let ImpulseDynamics { acceleration, bias, response, .. } = &dynamics;
-        let mut pushed = self.push(h, middle, &friction, (acceleration, bias, response))?;
-        let half = kernel.kinematics(middle.t, &middle.half, &pushed.z);
-        let (q, z) = self.second_half(h, middle, (pushed.z, &half))?;
-        let gaps = kernel.gaps(t, &q);
-        let closed = self.close(h, (response, &mut pushed), (q, gaps))?;
-        let rates = kernel.contact_rates(t, &closed.q, &z);
-        let (z, rates) = self.stop(h, (response, &pushed), &closed, (z, rates));
-        Ok(Attempt { end: self.end(pushed, closed, (z, rates)), acceleration: *acceleration })
-    }
-
-    /// Impulses at half of a step, with the speeds after them: of the motion without them its acceleration, and of
-    /// rates of contacts theirs, with what impulses do.
-    pub(super) fn push(
-        &mut self,
-        h: f64,
-        middle: &Middle<K>,
-        friction: &K::ContactRows,
-        (acceleration, bias, response): (&K::Speeds, &K::ContactRows, &ImpulseResponse<K>),
-    ) -> Result<Pushed<K>, ContactError> {
-        let laws = Laws::new(self.kernel, h, friction).map_err(|(i, kind)| self.error(Some(i), kind))?;
-        let free = self.z.add_scaled(h, acceleration);
-        let known = self.dependent;
-        let mut solved = self.solve(h, (&laws, response), self.free_rates(h, middle, (&free, bias)));
-        let again = solved.is_err() && self.dependent && !known;
-        if again {
-            solved = self.solve(h, (&laws, response), self.free_rates(h, middle, (&free, bias)));
-        }
-        let (solved, impulses) = solved.map_err(|kind| self.error(None, kind))?;
-        let dependent = known || again;
-        let z = after_impulses(&Lockstep::default(), self.kernel, &free, (&response.factors, &impulses));
-        Ok(Pushed { z, impulses, dependent, solved })
-    }
-
-    /// Closed gaps brought to zero at the end of a step; what is left open rests no longer.
-    pub(super) fn close(
-        &mut self,
-        h: f64,
-        (response, pushed): (&ImpulseResponse<K>, &mut Pushed<K>),
-        (q, gaps): (K::Configuration, K::Gaps),
-    ) -> Result<Closed<K>, ContactError> {
-        let at_end = (self.t + h, q, gaps);
-        let of_projection = &mut self.memory.as_mut()[memory(K::ContactRows::DIM)..];
-        let (closed, impulses, rates) = (pushed.solved.rests.as_ref(), &pushed.impulses, &self.rates);
-        let touched = Touched { closed, impulses, rates, h };
-        let mut projection = Projection::new(self.kernel, of_projection);
-        let closed = projection.close(at_end, (response, motion::magnitude(&q)), &touched);
-        let closed = closed.map_err(|NotClosed { contact, kind }| self.error(contact, kind))?;
-        (0..self.kernel.contacts().len()).filter(|i| closed.left[*i]).for_each(|i| pushed.solved.rests[i] = false);
-        Ok(closed)
-    }
-
     /// Mode of a contact at the end of a step, whose rates are brought to zero.
     pub(super) fn mode_at_end(&self, pushed: &Pushed<K>, i: usize) -> Mode {
         if pushed.solved.rests[i] { self.next[i] } else { Mode::Open }
     }
 
-    /// Whether contacts do something else than before the step, in which they come to these modes.
-    fn changes(&self, next: &[Mode]) -> bool {
+    /// Whether contacts do something else in the step than before it.
+    fn changes(&self) -> bool {
         let kind = |mode: &Mode| core::mem::discriminant(mode);
-        (0..self.kernel.contacts().len()).any(|i| kind(&next[i]) != kind(&self.modes[i]))
+        (0..self.kernel.contacts().len()).any(|i| kind(&self.next[i]) != kind(&self.modes[i]))
     }
 
     /// Rounding of rates at the end of a step: what begins to rest is brought to zero to the last bit, and stays there.
-    pub(super) fn rounding_at_end(&self, next: &[Mode], solved: &Solved<K>) -> f64 {
-        if self.changes(next) { 0.0 } else { solved.found.residual.rounding }
-    }
-
-    /// Rates of what rests brought to zero from those that are given.
-    pub(super) fn stop(
-        &mut self,
-        h: f64,
-        (response, pushed): (&ImpulseResponse<K>, &Pushed<K>),
-        closed: &Closed<K>,
-        (z, rates): (K::Speeds, K::ContactRows),
-    ) -> (K::Speeds, K::ContactRows) {
-        let modes: K::EachContact<Mode> = Each::from_fn(|i| self.mode_at_end(pushed, i));
-        let rounding = self.rounding_at_end(self.next.as_ref(), &pushed.solved);
-        let of_projection = &mut self.memory.as_mut()[memory(Self::ROWS)..];
-        let at_end = (self.t + h, &closed.q, z, rates);
-        Projection::new(self.kernel, of_projection).stop(at_end, response, (|i| modes[i], rounding))
+    pub(super) fn rounding_at_end(&self, solved: &Solved<K>) -> f64 {
+        if self.changes() { 0.0 } else { solved.found.residual.rounding }
     }
 
     /// The end of a step.
@@ -491,9 +396,9 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         closed: Closed<K>,
         (z, rates): (K::Speeds, K::ContactRows),
     ) -> End<K> {
-        let Pushed { impulses, dependent, solved, .. } = pushed;
+        let Pushed { impulses, dependent, solved } = pushed;
         let Closed { q, gaps, penetration, closure, left } = closed;
-        self.dependent &= !self.changes(self.next.as_ref());
+        self.dependent &= !self.changes();
         let report = StepReport {
             residual: solved.found.residual,
             from_coulomb: solved.from_coulomb,
@@ -515,16 +420,6 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     pub(super) fn made(&mut self, h: f64, made: Attempt<K>) -> Result<StepReport, ContactError> {
         self.report = self.take(h, made)?;
         Ok(self.report)
-    }
-
-    fn free_rates(
-        &self,
-        h: f64,
-        middle: &Middle<K>,
-        (free, bias): (&K::Speeds, &K::ContactRows),
-    ) -> [K::ContactRows; 2] {
-        let bounces = |i: usize| self.may_bounce(i);
-        motion::free_rates(self.kernel, h, middle, (&self.z, &self.rates), (free, bias), (self.dependent, bounces))
     }
 
     /// Impulses of a step, and its modes.
@@ -571,5 +466,72 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let answer = posed.answer(&problem, found, cones);
         let solved = posed.solved(&problem, (&answer, cones), (self.rests.as_ref(), self.next.as_mut()), 0);
         Ok((solved, posed.impulses(&problem)))
+    }
+}
+
+/// Decisions by the values of one state.
+impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> Decisions<K> for ContactStepper<'_, K, M> {
+    type Pushed = Pushed<K>;
+    type Refusal = ContactError;
+
+    fn stays_open(
+        &mut self,
+        Step { kernel, h, z: before, middle, .. }: &Step<K>,
+        z: &K::Speeds,
+    ) -> Result<bool, ContactError> {
+        let rates = kernel.contact_rates(middle.t, &middle.q, &motion::mean(before, z));
+        Ok(!self.comes_to_zero(*h, &rates))
+    }
+
+    fn push(&mut self, at: &StepDynamics<K>) -> Result<(Pushed<K>, K::Speeds), ContactError> {
+        let StepDynamics { step: Step { kernel, h, middle, .. }, friction, free, impulses } = at;
+        let ImpulseDynamics { bias, response, .. } = impulses;
+        let laws = Laws::new(*kernel, *h, friction).map_err(|(i, kind)| self.error(Some(i), kind))?;
+        let known = self.dependent;
+        let rates = |stepper: &Self| {
+            let (dependent, bounces) = (stepper.dependent, |i: usize| stepper.may_bounce(i));
+            motion::free_rates(*kernel, *h, middle, (&stepper.z, &stepper.rates), (free, bias), (dependent, bounces))
+        };
+        let mut solved = self.solve(*h, (&laws, response), rates(self));
+        let again = solved.is_err() && self.dependent && !known;
+        if again {
+            solved = self.solve(*h, (&laws, response), rates(self));
+        }
+        let (solved, impulses) = solved.map_err(|kind| self.error(None, kind))?;
+        let z = after_impulses(&Lockstep::default(), *kernel, free, (&response.factors, &impulses));
+        Ok((Pushed { impulses, dependent: known || again, solved }, z))
+    }
+
+    fn project(&mut self, step: &Step<K>, (q, z): Moved<K>) -> Result<Moved<K>, ContactError> {
+        let projected = step.kernel.project(step.end, &q, &z);
+        projected.map_err(|cause| self.error(None, ContactErrorKind::Projection(cause)))
+    }
+
+    /// What is left open rests no longer.
+    fn close(
+        &mut self,
+        StepDynamics { step, impulses, .. }: &StepDynamics<K>,
+        pushed: &mut Pushed<K>,
+        (q, _): &Moved<K>,
+    ) -> Result<Closed<K>, ContactError> {
+        let (closed, rates) = (pushed.solved.rests.as_ref(), &self.rates);
+        let touched = Touched { closed, impulses: &pushed.impulses, rates, h: step.h };
+        let mut projection = Projection::new(step.kernel, &mut self.memory.as_mut()[memory(Self::ROWS)..]);
+        let closed = projection.close((step.end, *q), &impulses.response, &touched);
+        let closed = closed.map_err(|NotClosed { contact, kind }| self.error(contact, kind))?;
+        (0..step.kernel.contacts().len()).filter(|i| closed.left[*i]).for_each(|i| pushed.solved.rests[i] = false);
+        Ok(closed)
+    }
+
+    fn stop(
+        &mut self,
+        StepDynamics { step, impulses, .. }: &StepDynamics<K>,
+        (pushed, closed): (&Pushed<K>, &Closed<K>),
+        (z, rates): Stopped<K>,
+    ) -> Result<Stopped<K>, ContactError> {
+        let modes: K::EachContact<Mode> = Each::from_fn(|i| self.mode_at_end(pushed, i));
+        let rounding = self.rounding_at_end(&pushed.solved);
+        let mut projection = Projection::new(step.kernel, &mut self.memory.as_mut()[memory(Self::ROWS)..]);
+        Ok(projection.stop((step.end, &closed.q, z, rates), &impulses.response, (|i| modes[i], rounding)))
     }
 }

@@ -1,4 +1,4 @@
-//! A step of all lanes in packs, as long as lanes decide alike.
+//! Decisions of several lanes of a step: in packs as long as lanes decide alike, lane by lane else.
 
 use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::{ContactSystem, Each, ImpulseDynamics, ImpulseResponse};
@@ -10,115 +10,100 @@ use crate::mode::{Mode, after_impulses};
 use super::bounds::Touched;
 use super::cones::Laws;
 use super::impulses::{self, Impulses};
-use super::lanes::{ContactLanes, LanesOf, PackedState, put, single};
+use super::lanes::{Lane, LanesOf, PackedState, Stage, middle_of, put, single};
 use super::motion::{self, Middle};
-use super::outcome::{Attempt, Pushed};
+use super::outcome::Pushed;
 use super::posed::Posed;
 use super::projection::{Closed, Projection};
 use super::relaxed::StepLaw;
-use super::report::StepScheme;
+use super::step::{Decisions, Moved, Step, StepDynamics, Stopped};
+use super::stepper::ContactStepper;
 use super::unknowns::Unknowns;
-use super::used::Used;
 
-/// Speeds of all lanes after their impulses, with these.
-struct PushedLanes<W: ContactSystem> {
-    z: W::Speeds,
-    impulses: W::ContactRows,
-    dependent: bool,
+/// Decisions of the lanes that go together: those in one stage of a step.
+pub(super) struct Together<'a, 'k, W: ContactSystem, K: ContactSystem<Scalar = f64>> {
+    pub(super) steppers: &'a mut [ContactStepper<'k, K>],
+    pub(super) lanes: &'a mut [Lane<'k, K>],
+    pub(super) memory: &'a mut [W::Scalar],
+    pub(super) state: &'a PackedState<W>,
+    pub(super) stage: Stage,
+    /// Whether all lanes have decided alike.
+    pub(super) in_lockstep: bool,
 }
 
-impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
+/// No lane goes with the others.
+pub(super) struct Parted;
+
+impl<'a, 'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> Together<'a, 'k, W, K> {
+    /// Whether there is a lane that goes.
+    fn goes(&self) -> bool {
+        self.lanes.iter().any(|lane| lane.stage == self.stage)
+    }
+
+    /// A decision of each lane, without which it goes alone.
+    pub(super) fn each(
+        &mut self,
+        mut decide: impl FnMut(usize, &mut ContactStepper<'k, K>, &mut Lane<'k, K>) -> Option<()>,
+    ) -> Result<(), Parted> {
+        let Self { steppers, lanes, stage, .. } = self;
+        for (lane, (stepper, of)) in steppers.iter_mut().zip(lanes.iter_mut()).enumerate() {
+            if of.stage == *stage && decide(lane, stepper, of).is_none() {
+                of.stage = Stage::Alone;
+            }
+        }
+        self.in_lockstep &= self.lanes.iter().all(|lane| lane.stage == self.stage);
+        if self.goes() { Ok(()) } else { Err(Parted) }
+    }
+
     /// Whether an answer is that of the first lane in all of them.
     fn alike<A: PartialEq>(&self, of: impl Fn(usize) -> A) -> bool {
         let first = of(0);
         (1..self.steppers.len()).all(|lane| of(lane) == first)
     }
 
-    /// Whether all lanes touch, and begin a step alike, of which the speeds at half are known.
-    fn begin_alike(&self, h: f64) -> bool {
+    /// Whether all lanes have the same law, and the same contacts are closed in them.
+    fn begins_alike(&self) -> bool {
         let of = |lane: usize| &self.steppers[lane];
-        let law = |lane: usize| (of(lane).law, of(lane).tolerance.to_bits(), of(lane).dependent, of(lane).scheme);
-        let known = |lane: usize| of(lane).scheme == StepScheme::Midpoint && of(lane).last.acceleration.is_some();
+        let law = |lane: usize| (of(lane).law, of(lane).tolerance.to_bits(), of(lane).dependent);
         let closed = |i: usize| self.alike(|lane| (of(lane).modes[i].is_closed(), of(lane).may_bounce(i)));
-        let goes_on = |lane: usize| !self.halted[lane] && known(lane) && !of(lane).last.is_stiff();
-        (h > 0.0 && h.is_finite() && of(0).law == StepLaw::Coulomb && !of(0).flies())
-            && (self.alike(law) && (0..self.steppers.len()).all(goes_on))
-            && (0..self.wide.contacts().len()).all(closed)
+        self.in_lockstep
+            && of(0).law == StepLaw::Coulomb
+            && self.alike(law)
+            && (0..of(0).kernel.contacts().len()).all(closed)
     }
 
-    /// The states of all lanes.
-    fn pack(&self) -> PackedState<W> {
-        let of = |lane: usize| &self.steppers[lane];
-        PackedState {
-            t: self.number(|lane| of(lane).t),
-            q: self.places(|lane| of(lane).q),
-            z: self.vectors(|lane| of(lane).z),
-            gaps: self.vectors(|lane| of(lane).gaps),
-            rates: self.vectors(|lane| of(lane).rates),
-            impulses: self.vectors(|lane| of(lane).impulses),
-            acceleration: self.vectors(|lane| of(lane).last.acceleration.unwrap_or(of(lane).z)),
-        }
-    }
-
-    /// A step of all lanes; nothing, and nothing is changed, where they part.
-    pub(super) fn step_together(&mut self, h: f64, input: &W::Input) -> Option<()> {
-        if !self.begin_alike(h) {
+    /// Impulses of all lanes, and the speeds after them; nothing where lanes part.
+    fn push_in_lockstep(&mut self, at: &StepDynamics<W>) -> Option<(W::ContactRows, W::Speeds)> {
+        if !self.begins_alike() {
             return None;
         }
-        let state = self.packed.take().unwrap_or_else(|| self.pack());
-        let (half, end) = (W::Scalar::from_f64(0.5 * h), state.t + W::Scalar::from_f64(h));
-        let rate = self.wide.kinematics(state.t, &state.q, &state.z);
-        let z = state.z.add_scaled(half, &state.acceleration);
-        let middle = Middle::<W>::new((state.t, h), motion::half_way::<W>(h, &state.q, &rate), state.z, z);
-        let friction = self.wide.friction(middle.t, &middle.q, &middle.z, input);
-        let laws = Laws::new(self.wide, h, &friction).ok()?;
-        let dynamics = self.wide.impulse_dynamics(middle.t, &middle.q, &middle.z, input);
-        let pushed = self.push_together(h, (&state, &middle), &laws, &dynamics)?;
-        let (q, z) = self.second_half_together(h, &middle, pushed.z)?;
-        let at_end = (end, q, z);
-        let (closed, z, rates) = self.close_together((h, &state), at_end, (&dynamics.response, &pushed))?;
-        if !self.agree_together(h, (&state, &middle), (&dynamics.acceleration, &z), input) {
-            return None;
-        }
-        self.take_together(h, (&state, end), (&pushed, &dynamics.acceleration), (closed, z, rates));
-        Some(())
-    }
-
-    /// Impulses of all lanes, and what the laws came to in each.
-    fn push_together(
-        &mut self,
-        h: f64,
-        (state, middle): (&PackedState<W>, &Middle<W>),
-        laws: &Laws<W>,
-        dynamics: &ImpulseDynamics<W>,
-    ) -> Option<PushedLanes<W>> {
-        let first = &self.steppers[0];
-        let dependent = first.dependent;
-        let free = state.z.add_scaled(W::Scalar::from_f64(h), &dynamics.acceleration);
-        let before = (&state.z, &state.rates);
-        let bounces = |i: usize| first.may_bounce(i);
-        let at = (&free, &dynamics.bias);
-        let rates = motion::free_rates(self.wide, h, middle, before, at, (dependent, bounces));
+        let StepDynamics { step: Step { kernel, h, middle, .. }, friction, free, impulses } = at;
+        let (kernel, h, ImpulseDynamics { bias, response, .. }) = (*kernel, *h, impulses);
+        let PackedState { z, gaps, rates, impulses, .. } = self.state;
+        let laws = Laws::new(kernel, h, friction).ok()?;
+        let ContactStepper { dependent, tolerance, modes, .. } = self.steppers[0];
+        let bounces = |i: usize| self.steppers[0].may_bounce(i);
+        let rates = motion::free_rates(kernel, h, middle, (z, rates), (free, bias), (dependent, bounces));
         let posed = Posed::<W> {
-            kernel: self.wide,
+            kernel,
             h,
             law: StepLaw::Coulomb,
-            tolerance: first.tolerance,
-            laws,
-            delassus: &dynamics.response.delassus,
-            restitution: self.wide.restitution(),
-            gaps: state.gaps,
+            tolerance,
+            laws: &laws,
+            delassus: &response.delassus,
+            restitution: kernel.restitution(),
+            gaps: *gaps,
             rates,
             fastest: motion::fastest::<W>(&rates),
-            impulses: state.impulses,
-            modes: first.modes.as_ref(),
+            impulses: *impulses,
+            modes: modes.as_ref(),
             dependent,
         };
         let mut unknowns = Unknowns::<W>::new();
         let memory = &mut self.memory[..impulses::memory(W::ContactRows::DIM)];
-        let mut problem = Impulses::new(memory, unknowns.slices(self.wide));
+        let mut problem = Impulses::new(memory, unknowns.slices(kernel));
         let cones = posed.pose(&mut problem);
-        let cones = &cones.as_ref()[..self.wide.contacts().len()];
+        let cones = &cones.as_ref()[..kernel.contacts().len()];
         let found = problem.solve_in_lockstep(cones, posed.tolerance)?;
         posed.drive(&mut problem, cones);
         let joins = |i: usize| {
@@ -128,138 +113,202 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         };
         let answer = posed.answer(&problem, found, cones);
         let impulses = posed.impulses(&problem);
-        let z = after_impulses(&problem.lockstep, self.wide, &free, (&dynamics.response.factors, &impulses));
+        let z = after_impulses(&problem.lockstep, kernel, free, (&response.factors, &impulses));
         if (0..cones.len()).any(joins) || problem.dependent != dependent || problem.lockstep.has_parted() {
             return None;
         }
-        self.solved.clear();
-        self.solved.extend(self.steppers.iter().enumerate().map(|(lane, stepper)| {
-            let mut after: K::EachContact<Mode> = Each::from_fn(|_| Mode::Open);
-            let rests = (stepper.rests.as_ref(), after.as_mut());
+        for (lane, (stepper, of)) in self.steppers.iter_mut().zip(self.lanes.iter_mut()).enumerate() {
+            let rests = (stepper.rests.as_ref(), stepper.next.as_mut());
             let solved = posed.solved::<K>(&problem, (&answer, cones), rests, lane);
-            (after, solved)
-        }));
-        // An impact keeps an account of its energy, alone.
-        let struck = self.solved.iter().any(|(_, solved)| solved.struck);
-        (!struck).then_some(PushedLanes { z, impulses, dependent })
+            of.pushed = Some(Pushed { impulses: single::<W, _, _>(&impulses, lane), dependent, solved });
+        }
+        Some((impulses, z))
     }
 
-    /// The second half of a step. What keeps bilateral constraints goes lane by lane: its iterations end where they do.
-    fn second_half_together(&self, h: f64, middle: &Middle<W>, z: W::Speeds) -> Option<(W::Configuration, W::Speeds)> {
-        let rate = self.wide.kinematics(middle.t, &middle.q, &z);
-        let q = motion::half_way::<W>(h, &middle.q, &rate);
-        if !K::CONSTRAINED {
-            return Some((q, z));
-        }
-        let mut projected = (q, z);
-        for (lane, stepper) in self.steppers.iter().enumerate() {
-            let (q, z) = (projected.0.extract(lane), single::<W, _, K::Speeds>(&projected.1, lane));
-            let (q, z) = stepper.kernel.project(stepper.t + h, &q, &z).ok()?;
-            projected.0.replace(lane, &q);
-            put::<W, _, _>(&mut projected.1, lane, &z);
-        }
-        Some(projected)
-    }
-
-    /// Closed gaps brought to zero, then rates of what rests, and slips of what sticks.
-    fn close_together(
-        &mut self,
-        (h, state): (f64, &PackedState<W>),
-        (t, q, z): (W::Scalar, W::Configuration, W::Speeds),
-        (response, pushed): (&ImpulseResponse<W>, &PushedLanes<W>),
-    ) -> Option<(Closed<W>, W::Speeds, W::ContactRows)> {
-        let rest = |lane: usize, i: usize| self.solved[lane].1.rests[i];
-        let rests: W::EachContact<bool> = Each::from_fn(|i| rest(0, i));
-        // The rows that are brought to zero do not depend on the direction of slip.
-        let mode = |lane: usize, i: usize| match self.solved[lane].0[i] {
-            _ if !rest(lane, i) => Mode::Open,
+    /// Whether a contact rests in a lane, and its mode at the end. Rows that are brought to zero do not depend on the
+    /// direction of slip.
+    fn rests(&self, lane: usize, i: usize) -> (bool, Mode) {
+        let rests = self.lanes[lane].pushed.as_ref().is_some_and(|pushed| pushed.solved.rests[i]);
+        let mode = match self.steppers[lane].next[i] {
+            _ if !rests => Mode::Open,
             Mode::Slides(_) => Mode::Closed,
             mode => mode,
         };
-        let modes: W::EachContact<Mode> = Each::from_fn(|i| mode(0, i));
-        let contacts = 0..self.wide.contacts().len();
-        if !contacts.clone().all(|i| self.alike(|lane| (rest(lane, i), mode(lane, i)))) {
-            return None;
-        }
-        let rounding = |lane: usize| {
-            let (after, solved) = &self.solved[lane];
-            self.steppers[lane].rounding_at_end(after.as_ref(), solved)
-        };
-        let rounding = self.number(rounding);
-        let mut projection = Projection::<W>::new(self.wide, &mut self.memory[impulses::memory(W::ContactRows::DIM)..]);
-        let (gaps, magnitude) = (self.wide.gaps(t, &q), motion::magnitude(&q));
-        let (closed, impulses, rates) = (rests.as_ref(), &pushed.impulses, &state.rates);
-        let touched = Touched { closed, impulses, rates, h };
-        let closed = projection.close((t, q, gaps), (response, magnitude), &touched).ok()?;
-        let rates = self.wide.contact_rates(t, &closed.q, &z);
-        let at_end = (t, &closed.q, z, rates);
-        let (z, rates) = projection.stop(at_end, response, (|i| modes[i], rounding));
-        (!projection.lockstep.has_parted()).then_some((closed, z, rates))
+        (rests, mode)
     }
 
-    /// Whether no lane is to make its step again for its speeds.
-    fn agree_together(
-        &self,
-        h: f64,
-        (state, middle): (&PackedState<W>, &Middle<W>),
-        (acceleration, after): (&W::Speeds, &W::Speeds),
-        input: &W::Input,
-    ) -> bool {
-        let of = |vectors: &W::Speeds, lane: usize| single::<W, _, K::Speeds>(vectors, lane);
-        let used = |lane: usize| Used {
-            h,
-            least: self.steppers[lane].least(h),
-            before: of(&state.z, lane),
-            used: of(&middle.z, lane),
-            acceleration: of(acceleration, lane),
-            after: of(after, lane),
-        };
-        let mut all = (0..self.steppers.len()).map(used).enumerate();
-        let is_plain = |(lane, used): (usize, Used<K::Speeds>)| {
-            self.steppers[lane].last.may_stiffen(&used) == Some(false) && !used.is_rough()
-        };
-        if !all.clone().all(is_plain) {
-            return false;
-        }
-        let mut apart = all.by_ref().filter(|(_, used)| !used.is_plain()).peekable();
-        apart.peek().is_none() || {
-            let mean = motion::mean(&state.z, after);
-            let at_mean = self.wide.acceleration(middle.t, &middle.q, &mean, input);
-            apart.all(|(lane, used)| !used.grows(&of(&at_mean, lane)))
+    /// The same of the first lane, where all are alike.
+    fn rest_alike(&self) -> Option<(W::EachContact<bool>, W::EachContact<Mode>)> {
+        let contacts = 0..self.steppers[0].kernel.contacts().len();
+        let alike = self.in_lockstep && contacts.clone().all(|i| self.alike(|lane| self.rests(lane, i)));
+        let of = |i: usize| if contacts.contains(&i) { self.rests(0, i) } else { (false, Mode::Open) };
+        alike.then(|| (Each::from_fn(|i| of(i).0), Each::from_fn(|i| of(i).1)))
+    }
+}
+
+/// The motion of a lane without contacts in a step.
+pub(super) struct LaneDynamics<'k, K: ContactSystem<Scalar = f64>> {
+    kernel: &'k K,
+    h: f64,
+    end: f64,
+    z: K::Speeds,
+    middle: Middle<K>,
+    friction: K::ContactRows,
+    free: K::Speeds,
+    impulses: ImpulseDynamics<K>,
+}
+
+impl<'k, K: ContactSystem<Scalar = f64>> LaneDynamics<'k, K> {
+    fn new<W: LanesOf<K>>(
+        &StepDynamics { step, friction, free, impulses }: &StepDynamics<W>,
+        ContactStepper { kernel, t, z, .. }: &ContactStepper<'k, K>,
+        lane: usize,
+    ) -> Self {
+        let ImpulseDynamics { acceleration, bias, response, .. } = impulses;
+        let response = ImpulseResponse::new(response.factors.extract(lane), response.delassus.extract(lane));
+        let (acceleration, bias) = (single::<W, _, _>(acceleration, lane), single::<W, _, _>(bias, lane));
+        Self {
+            kernel,
+            h: step.h,
+            end: t + step.h,
+            z: *z,
+            middle: middle_of::<W, K>(step.middle, lane),
+            friction: single::<W, _, _>(friction, lane),
+            free: single::<W, _, _>(free, lane),
+            impulses: ImpulseDynamics::new(acceleration, bias, response),
         }
     }
 
-    /// The end of a step to each lane, and in packs where all of them go on.
-    fn take_together(
+    /// A decision on the step of the lane.
+    fn decide<T>(&self, decision: impl FnOnce(&StepDynamics<K>) -> T) -> T {
+        let Self { kernel, h, end, z, middle, friction, free, impulses } = self;
+        let step = Step { kernel: *kernel, h: *h, end: *end, z, middle };
+        decision(&StepDynamics { step: &step, friction, free, impulses })
+    }
+}
+
+impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> Decisions<W> for Together<'_, 'k, W, K> {
+    type Pushed = W::ContactRows;
+    type Refusal = Parted;
+
+    fn stays_open(
         &mut self,
-        h: f64,
-        (state, t): (&PackedState<W>, W::Scalar),
-        (pushed, free): (&PushedLanes<W>, &W::Speeds),
-        (closed, z, rates): (Closed<W>, W::Speeds, W::ContactRows),
-    ) {
-        let mut goes_on = true;
-        for (lane, (after, solved)) in self.solved.drain(..).enumerate() {
-            let stepper = &mut self.steppers[lane];
-            stepper.next = after;
-            let of_lane = Closed {
-                q: closed.q.extract(lane),
-                gaps: single::<W, _, K::Gaps>(&closed.gaps, lane),
-                penetration: closed.penetration.lane(lane),
-                closure: closed.closure.lane(lane),
-                left: Each::from_fn(|_| false),
-            };
-            let (z, rates) = (single::<W, _, K::Speeds>(&z, lane), single::<W, _, K::ContactRows>(&rates, lane));
-            let impulses = single::<W, _, K::ContactRows>(&pushed.impulses, lane);
-            let of_lane_pushed = Pushed { z, impulses, dependent: pushed.dependent, solved };
-            let end = stepper.end(of_lane_pushed, of_lane, (z, rates));
-            let acceleration = single::<W, _, K::Speeds>(free, lane);
-            self.outcomes[lane] = stepper.made(h, Attempt { end, acceleration });
-            goes_on &= self.outcomes[lane].is_ok();
+        Step { kernel, h, z: before, middle, .. }: &Step<W>,
+        z: &W::Speeds,
+    ) -> Result<bool, Parted> {
+        let rates = kernel.contact_rates(middle.t, &middle.q, &motion::mean(before, z));
+        let closes =
+            |lane, stepper: &ContactStepper<'k, K>| stepper.comes_to_zero(*h, &single::<W, _, _>(&rates, lane));
+        self.each(|lane, stepper, _| (!closes(lane, stepper)).then_some(())).map(|()| true)
+    }
+
+    fn push(&mut self, at: &StepDynamics<W>) -> Result<(W::ContactRows, W::Speeds), Parted> {
+        if let Some(pushed) = self.push_in_lockstep(at) {
+            return Ok(pushed);
         }
-        let (PushedLanes { impulses, .. }, Closed { q, gaps, .. }) = (pushed, closed);
-        self.packed = goes_on.then(|| {
-            let acceleration = z.add_scaled(-W::Scalar::one(), &state.z).scale(W::Scalar::from_f64(1.0 / h));
-            PackedState { t, q, z, gaps, rates, impulses: *impulses, acceleration }
-        });
+        self.in_lockstep = false;
+        let (mut impulses, mut after) = (W::ContactRows::zero(), *at.free);
+        self.each(|lane, stepper, of| {
+            // Where it has no solution it is tried in parts, alone.
+            let of_lane = of.dynamics.insert(LaneDynamics::new(at, stepper, lane));
+            let (pushed, z) = of_lane.decide(|at| stepper.push(at)).ok()?;
+            put::<W, _, _>(&mut impulses, lane, &pushed.impulses);
+            put::<W, _, _>(&mut after, lane, &z);
+            of.pushed = Some(pushed);
+            Some(())
+        })?;
+        Ok((impulses, after))
+    }
+
+    /// Lane by lane: iterations end where they do.
+    fn project(&mut self, step: &Step<W>, (mut q, mut z): Moved<W>) -> Result<Moved<W>, Parted> {
+        self.each(|lane, stepper, _| {
+            let t = stepper.t + step.h;
+            let end = stepper.kernel.project(t, &q.extract(lane), &single::<W, _, _>(&z, lane)).ok()?;
+            q.replace(lane, &end.0);
+            put::<W, _, _>(&mut z, lane, &end.1);
+            Some(())
+        })?;
+        Ok((q, z))
+    }
+
+    fn close(
+        &mut self,
+        at: &StepDynamics<W>,
+        pushed: &mut W::ContactRows,
+        end: &Moved<W>,
+    ) -> Result<Closed<W>, Parted> {
+        let StepDynamics { step, impulses, .. } = at;
+        if let Some((rests, _)) = self.rest_alike() {
+            let touched = Touched { closed: rests.as_ref(), impulses: pushed, rates: &self.state.rates, h: step.h };
+            let mut projection = projection(step.kernel, self.memory);
+            if let Ok(closed) = projection.close((step.end, end.0), &impulses.response, &touched)
+                && !projection.lockstep.has_parted()
+            {
+                self.lanes.iter_mut().enumerate().for_each(|(lane, of)| of.closed = Some(closed_of(&closed, lane)));
+                return Ok(closed);
+            }
+        }
+        self.in_lockstep = false;
+        let mut closed = Closed::<W>::still(end.0);
+        self.each(|lane, stepper, of| {
+            let of_lane = of.dynamics.get_or_insert_with(|| LaneDynamics::new(at, stepper, lane));
+            let end = (end.0.extract(lane), single::<W, _, _>(&end.1, lane));
+            let pushed = of.pushed.as_mut()?;
+            let closes = of_lane.decide(|at| stepper.close(at, pushed, &end)).ok()?;
+            closed.q.replace(lane, &closes.q);
+            put::<W, _, _>(&mut closed.gaps, lane, &closes.gaps);
+            of.closed = Some(closes);
+            Some(())
+        })?;
+        Ok(closed)
+    }
+
+    fn stop(
+        &mut self,
+        at: &StepDynamics<W>,
+        (_, closed): (&W::ContactRows, &Closed<W>),
+        (mut z, mut rates): Stopped<W>,
+    ) -> Result<Stopped<W>, Parted> {
+        let StepDynamics { step, impulses, .. } = at;
+        if let Some((_, modes)) = self.rest_alike() {
+            let solved = |lane: usize| self.lanes[lane].pushed.as_ref().map(|pushed| &pushed.solved);
+            let rounding = |lane: usize| solved(lane).map_or(0.0, |solved| self.steppers[lane].rounding_at_end(solved));
+            let mut roundings = W::Scalar::repeat(&rounding(0));
+            (1..self.lanes.len()).for_each(|lane| roundings.replace(lane, &rounding(lane)));
+            let mut projection = projection(step.kernel, self.memory);
+            let at_end = (step.end, &closed.q, z, rates);
+            let stopped = projection.stop(at_end, &impulses.response, (|i| modes[i], roundings));
+            if !projection.lockstep.has_parted() {
+                return Ok(stopped);
+            }
+        }
+        self.in_lockstep = false;
+        self.each(|lane, stepper, of| {
+            let of_lane = of.dynamics.get_or_insert_with(|| LaneDynamics::new(at, stepper, lane));
+            let end = (single::<W, _, _>(&z, lane), single::<W, _, _>(&rates, lane));
+            let decided = (of.pushed.as_ref()?, of.closed.as_ref()?);
+            let stopped = of_lane.decide(|at| stepper.stop(at, decided, end)).ok()?;
+            put::<W, _, _>(&mut z, lane, &stopped.0);
+            put::<W, _, _>(&mut rates, lane, &stopped.1);
+            Some(())
+        })?;
+        Ok((z, rates))
+    }
+}
+
+/// Memory for the projection of all lanes.
+fn projection<'m, W: ContactSystem>(kernel: &'m W, memory: &'m mut [W::Scalar]) -> Projection<'m, W> {
+    Projection::new(kernel, &mut memory[impulses::memory(W::ContactRows::DIM)..])
+}
+
+/// Closed gaps of a lane.
+fn closed_of<W: LanesOf<K>, K: ContactSystem<Scalar = f64>>(closed: &Closed<W>, lane: usize) -> Closed<K> {
+    Closed {
+        q: closed.q.extract(lane),
+        gaps: single::<W, _, _>(&closed.gaps, lane),
+        penetration: closed.penetration.lane(lane),
+        closure: closed.closure.lane(lane),
+        left: Each::from_fn(|_| false),
     }
 }
