@@ -1,29 +1,34 @@
-//! The energy of a run in which nothing but contacts can raise it.
+//! The energy of a run, and how much of it is explained.
 //!
 //! Each step may be off by no more than its length allows and the run all the same gain without bound: by forces that
 //! set in within a step, as of stops that give way, by one impact after the other, by steps that are made in parts now
-//! and then. Where a system [keeps its energy](gauss_runtime::system::GaussSystem::KEEPS_ENERGY), what it has is
-//! compared with the least that it had, and what contacts gave since: surfaces that move, Newton's law with friction.
-//! A run that has more than that by all that ever moved is refused. Other systems would take an acceleration more in
-//! each step for the same, and the account would be off by what a step does not see of their powers.
+//! and then. So what a system has is compared with the least that it had, and what was given to it since. A run that
+//! has more than that by all that ever moved is refused.
+//!
+//! Where a system [keeps its energy](gauss_runtime::system::GaussSystem::KEEPS_ENERGY) contacts alone give: surfaces
+//! that move, Newton's law with friction. Elsewhere so do inputs, forces, drives and frames that move: in each step the
+//! rate of the energy at half of it, along its mean speeds and the acceleration that it took. That counts nothing of
+//! forces that have a potential. Forces that steps take at mean speeds do the work that they should, up to (ωh)²/12 of
+//! it: a quarter more than the work is allowed, since a sum of it over a long run is more than all that moves. Work
+//! that is taken away is not counted, and steps that lose energy need no account.
 
 use gauss_runtime::contact::ContactSystem;
 
 /// The account of a run.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Account {
-    /// The least energy so far, with what contacts gave since.
+    /// The least energy so far, with what was given since.
     pub(super) low: f64,
     /// The largest kinetic energy that is explained: that at the start, and what `low` leaves at later places.
     pub(super) most: f64,
 }
 
 impl Account {
-    /// At the start of a run, of a system that keeps its energy.
+    /// At the start of a run.
     pub(super) fn begun<K: ContactSystem<Scalar = f64>>(
         kernel: &K,
         (t, q, z): (f64, &K::Configuration, &K::Speeds),
-    ) -> Option<Self> {
-        kernel.keeps_energy().then(|| Self { low: kernel.energy(t, q, z), most: kernel.kinetic_energy(t, q, z) })
+    ) -> Self {
+        Self { low: kernel.energy(t, q, z), most: kernel.kinetic_energy(t, q, z) }
     }
 }

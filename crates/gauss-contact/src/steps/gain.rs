@@ -30,6 +30,9 @@ const MUCH: f64 = 0.1;
 /// Part of itself by which energy is rounded: some hundred terms.
 const ROUNDING: f64 = 128.0 * f64::EPSILON;
 
+/// The part of work by which it may be off in a step.
+const ALLOWED: f64 = 0.25;
+
 /// Part of a step by which states are moved for rates of energy.
 const NEAR: f64 = 1e-4;
 
@@ -117,9 +120,13 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
 
     /// The rate of the energy of the motion without contacts.
     fn power(&self, h: f64, (t, q, z): (f64, &K::Configuration, &K::Speeds), input: &K::Input) -> f64 {
-        let kernel = self.kernel;
-        let (rate, acceleration) = (kernel.kinematics(t, q, z), kernel.acceleration(t, q, z, input));
-        let moved = |by: f64| kernel.energy(t + by, &q.advance(&rate.scale(by)), &z.add_scaled(by, &acceleration));
+        self.rate(h, (t, q, z), &self.kernel.acceleration(t, q, z, input))
+    }
+
+    /// The rate of the energy in a motion with an acceleration.
+    fn rate(&self, h: f64, (t, q, z): (f64, &K::Configuration, &K::Speeds), acceleration: &K::Speeds) -> f64 {
+        let (kernel, rate) = (self.kernel, self.kernel.kinematics(t, q, z));
+        let moved = |by: f64| kernel.energy(t + by, &q.advance(&rate.scale(by)), &z.add_scaled(by, acceleration));
         (moved(NEAR * h) - moved(-NEAR * h)) / (2.0 * NEAR * h)
     }
 
@@ -128,10 +135,13 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         let Some(Account { low, most }) = self.account else { return Ok(None) };
         let (kernel, t, end) = (self.kernel, self.t + h, &made.end);
         let (potential, kinetic) = (kernel.potential_energy(t, &end.q), kernel.kinetic_energy(t, &end.q, &end.z));
-        let [taken, given] = if end.touches { self.work(h, end) } else { [0.0; 2] };
-        let of_law = if Self::rubs(self.kernel, &end.impulses) { taken.max(0.0) } else { 0.0 };
         let energy = potential + kinetic;
-        let low = (low + of_law + (-given).max(0.0)).min(energy);
+        let given = match energy > low {
+            true if kernel.keeps_energy() => self.given_by_contacts(h, end),
+            true => self.supplied(h, made),
+            false => 0.0,
+        };
+        let low = (low + given).min(energy);
         let most = most.max(low - potential);
         // What weight makes of rest in a step, and rounding.
         let of_weight = || kernel.kinetic_energy(t, &end.q, &made.acceleration.scale(h));
@@ -141,6 +151,32 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
             return Err(self.error(None, ContactErrorKind::EnergyFromNowhere { gained, kinetic: most, step: h }));
         }
         Ok(Some(Account { low, most }))
+    }
+
+    /// The energy that contacts give in a step: surfaces that move, and Newton's law with friction.
+    fn given_by_contacts(&self, h: f64, end: &End<K>) -> f64 {
+        let [taken, given] = if end.touches { self.work(h, end) } else { [0.0; 2] };
+        let of_law = if Self::rubs(self.kernel, &end.impulses) { taken.max(0.0) } else { 0.0 };
+        of_law + (-given).max(0.0)
+    }
+
+    /// The energy that all that has no potential gives in a step, contacts among it, with what steps may err by of it.
+    fn supplied(&self, h: f64, made: &Attempt<K>) -> f64 {
+        let (kernel, t, end) = (self.kernel, self.t + 0.5 * h, &made.end);
+        let mean = motion::mean(&self.z, &end.z);
+        // The place at which the step took its forces: of those that have a potential the rate is zero there alone.
+        let way = if self.last.is_stiff() { &mean } else { &self.z };
+        let q = motion::half_way::<K>(h, &self.q, &kernel.kinematics(self.t, &self.q, way));
+        let mut work = h * self.rate(h, (t, &q, &mean), &made.acceleration);
+        if end.touches || K::CONSTRAINED {
+            let free = self.z.add_scaled(h, &made.acceleration);
+            let (p, added) = (kernel.momentum(t, &q, &mean), end.z.add_scaled(-1.0, &free));
+            work += (0..K::Speeds::DIM).map(|i| p.component(i) * added.component(i)).sum::<f64>();
+        }
+        if end.touches && !Self::rubs(kernel, &end.impulses) {
+            work -= self.work(h, end)[0].max(0.0);
+        }
+        (1.0 + ALLOWED) * work.max(0.0)
     }
 
     /// Whether there is friction, without which no impact gives energy.

@@ -168,7 +168,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             rates,
             last,
             // Data that are other ones may lift what is there.
-            account: Account::begun(kernel, (t, &q, &z)),
+            account: kernel.keeps_energy().then(|| Account::begun(kernel, (t, &q, &z))),
             modes: open,
             rests: Each::from_fn(|_| false),
             next: open,

@@ -54,7 +54,7 @@ pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
     pub(super) rates: K::ContactRows,
     /// Forces of the last step.
     pub(super) last: LastForces<K::Speeds>,
-    /// Account of the energy, where nothing but contacts can raise it.
+    /// Account of the energy, where contacts stay the same from step to step.
     pub(super) account: Option<Account>,
     pub(super) modes: K::EachContact<Mode>,
     /// Contacts that are closed at the state and stay so.
@@ -126,7 +126,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             gaps: kernel.gaps(t, &q),
             rates: kernel.contact_rates(t, &q, &z),
             last: LastForces::default(),
-            account: Account::begun(kernel, (t, &q, &z)),
+            account: Some(Account::begun(kernel, (t, &q, &z))),
             modes: Each::from_fn(|_| Mode::Open),
             rests: Each::from_fn(|_| false),
             next: Each::from_fn(|_| Mode::Open),

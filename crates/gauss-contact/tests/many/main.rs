@@ -9,6 +9,7 @@ mod common;
 mod driven;
 mod front;
 mod lanes;
+mod powered;
 mod relaxed;
 mod sampled;
 mod several;
