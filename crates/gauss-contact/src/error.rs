@@ -104,8 +104,7 @@ pub enum ContactErrorKind {
         step: f64,
     },
     /// A step with an impact would gain more energy for no reason than all that moves has, in sixteen parts as well; or
-    /// a run has gained more than that, in a system in which
-    /// [nothing raises the energy](gauss_runtime::system::GaussSystem::KEEPS_ENERGY).
+    /// a run has gained more than that beyond what inputs, forces, drives and contacts gave.
     EnergyFromNowhere {
         /// The energy that nothing explains.
         gained: f64,
@@ -268,7 +267,7 @@ impl ContactErrorKind {
             Self::EveryState { every } => write!(
                 f,
                 "steps with contacts keep every state, and `every({every})` asks for fewer; leave it out, and take \
-                 `sampled` or `at_times` of the run"
+                 `sampled` or `at_times` of the run, or `visit` and keep what you want"
             ),
             Self::LawWithoutSteps { law } => {
                 write!(f, "a run by the law {law:?} cannot change over to steps: these have Newton's law alone")
@@ -297,16 +296,32 @@ impl ContactErrorKind {
             Self::Strikes { rate } => {
                 write!(f, "the closed gap is closing at {rate:e}; start from the state after the impact")
             }
+            Self::NonFinite => f.write_str(
+                "gaps, rates, coefficients or forces (of inputs, too) are not finite; a rim that lies flat (a coin, a \
+                 cylinder on its face) has no lowest point: give points on it contacts of their own in its place, or \
+                 end the run before",
+            ),
             _ => Ok(()),
         }
     }
+}
+
+/// Writes why the motion between events cannot go on.
+fn between_events(error: &IntegrationError, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    fmt::Display::fmt(error, f)?;
+    if matches!(error.kind, IntegrationErrorKind::Stiff { .. }) {
+        let slow = "; a slow slip along two axes turns as fast as that: larger tolerances count it as none sooner, and \
+                    contact steps pass over it";
+        f.write_str(slow)?;
+    }
+    Ok(())
 }
 
 impl fmt::Display for ContactErrorKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NegativeGap { .. } | Self::JumpPenetrates { .. } | Self::Penetration { .. } => self.of_gaps(f),
-            Self::Projection(_) | Self::Strikes { .. } => self.of_gaps(f),
+            Self::Projection(_) | Self::Strikes { .. } | Self::NonFinite => self.of_gaps(f),
             Self::InvalidRestitution { restitution } => {
                 write!(f, "the coefficient of restitution is {restitution}; it must be between 0 and 1")
             }
@@ -328,7 +343,6 @@ impl fmt::Display for ContactErrorKind {
             | Self::StiffSprings { .. }
             | Self::EnergyFromNowhere { .. }
             | Self::TooManySteps { .. } => self.of_steps(f),
-            Self::NonFinite => f.write_str("gaps, rates, coefficients or forces (of inputs, too) are not finite"),
             Self::Inconsistent => f.write_str("no contact force agrees with rigid bodies and Coulomb's law (Painlevé)"),
             Self::Indeterminate => f.write_str("several motions agree with rigid bodies and Coulomb's law (Painlevé)"),
             Self::Unsolved { residual } => write!(
@@ -360,7 +374,7 @@ impl fmt::Display for ContactErrorKind {
                  parameters"
             ),
             Self::OutsideRun => f.write_str("the run does not cover this time"),
-            Self::Integration(error) => error.fmt(f),
+            Self::Integration(error) => between_events(error, f),
             Self::Sampling(kind) => kind.fmt(f),
         }
     }

@@ -1,6 +1,6 @@
 //! The energy of steps with impacts: none comes from nowhere, and what a step errs by is in its report.
 
-use gauss_contact::{ContactErrorKind, ContactStepper, ContactSteps, InMode, Mode, StepScheme};
+use gauss_contact::{ContactErrorKind, ContactRun, ContactStepper, ContactSteps, InMode, Mode, StepScheme};
 use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::prelude::*;
 
@@ -184,6 +184,30 @@ fn gaps_that_are_no_numbers_end_steps() {
     let error = error.unwrap();
     assert_eq!((error.contact, error.kind), (Some("wall"), ContactErrorKind::NonFinite));
     assert!((error.time - 0.5).abs() < 2e-3 && run.samples.last().unwrap().state.q[0] >= 0.0);
+}
+
+/// A coin over a table.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(z, a),
+    body(coin, position = [0, 0, z], rotation = rotation_x(a), mass = 0.01, inertia = [6e-7, 6e-7, 1.2e-6]),
+    contact(table, point = coin.position, rim = 0.01, axis = [0, 0, 1], restitution = 0.3),
+    gravity = 9.81,
+)]
+struct Coin {}
+
+#[test]
+fn a_coin_that_falls_flat_is_told_what_to_do() {
+    let kernel = Coin {}.kernel().unwrap();
+    // At once, and after a fall.
+    for (z, a) in [(0.0, 0.0), (0.02, 0.0)] {
+        let steps = ContactSteps::new(&kernel, 1e-3).run([z, a].into(), [0.0, 0.0].into(), 0.0..1.0).map(|_| ());
+        let run = ContactRun::new(&kernel).adaptive(1e-8, 1e-8).run([z, a].into(), [0.0, 0.0].into(), 0.0..1.0);
+        for error in [steps.unwrap_err(), run.map(|_| ()).unwrap_err()] {
+            assert_eq!((error.contact, &error.kind), (Some("table"), &ContactErrorKind::NonFinite), "{z} {a}");
+            assert!(error.to_string().contains("give points on it contacts of their own"), "{error}");
+        }
+    }
 }
 
 /// States of rounding: what lies, by what a step has left of it, is at rest.

@@ -41,6 +41,18 @@ pub fn of_contacts(ContactError { contact, time, kind, .. }: &ContactError) -> S
     }
 }
 
+/// The message of a step between events of contacts, for which there is one method.
+fn between_events(kind: &IntegrationErrorKind) -> String {
+    match kind {
+        IntegrationErrorKind::Stiff { rate, step } => format!(
+            "something decays at a rate of {rate:.1e} per unit of time, which steps of {step:.1e} of an explicit method \
+             cannot pass over; a slow slip along two axes turns as fast as that: larger `rtol` and `atol` count it as \
+             none sooner, and `contacts=\"steps\"` passes over it"
+        ),
+        other => words(other),
+    }
+}
+
 fn contact_words(kind: &ContactErrorKind) -> String {
     match kind {
         ContactErrorKind::Penetration { gap } => format!(
@@ -64,7 +76,7 @@ fn contact_words(kind: &ContactErrorKind) -> String {
             "{limit} events do not reach the end; begin another run at the last state of this one, or take \
              `contacts=\"steps\"`"
         ),
-        ContactErrorKind::Integration(error) => words(&error.kind),
+        ContactErrorKind::Integration(error) => between_events(&error.kind),
         other => other.to_string(),
     }
 }
@@ -118,6 +130,12 @@ mod tests {
                 assert!(!told.contains(name), "{told}");
             }
         }
+    }
+
+    #[test]
+    fn runs_with_contacts_have_one_method() {
+        let told = between_events(&IntegrationErrorKind::Stiff { rate: 1e9, step: 1e-9 });
+        assert!(!told.contains("method=") && told.contains("contacts=\"steps\""), "{told}");
     }
 
     /// Errors that stop runs with contacts: one of each kind that a run of a scene can meet.
