@@ -214,6 +214,14 @@ impl<'k, K: ContactSystem<Scalar = f64>> SteppedRun<'k, K> {
         times
     }
 
+    /// Forgets all steps but the last.
+    pub(super) fn forget(&mut self) {
+        if let Some(last) = self.samples.len().checked_sub(1).filter(|last| *last > 0) {
+            self.start = self.samples[last - 1].state;
+            self.samples.drain(..last);
+        }
+    }
+
     /// The state before a step.
     pub(super) fn before(&self, step: usize) -> &Sample<K> {
         step.checked_sub(1).and_then(|last| self.samples.get(last)).map_or(&self.start, |last| &last.state)

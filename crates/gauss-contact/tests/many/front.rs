@@ -176,3 +176,54 @@ fn both_records_are_read_alike() {
     let both = simulation().adaptive(1e-10, 1e-10).contact_events().changing_over(h).run(q, z, 0.0..2.0);
     check(&both.expect("runs"), (1e-8, 1e-9));
 }
+
+/// Steps that are handed on and forgotten are those of a run that keeps them.
+#[test]
+fn a_run_that_is_visited_keeps_its_last_step_alone() {
+    let kernel = block(0.4);
+    let (q, z) = (START.0.into(), START.1.into());
+    let steps = || {
+        let steps = ContactSteps::new(&kernel, 1e-2).input(push).event(Crossing::Falling, |_, q, _| q[1] - 0.2);
+        // A blow from the side, after which the run goes on.
+        steps.event(Crossing::Rising, |t, _, _| t - 1.234).then_through(|state| state.z[0] += 1.0)
+    };
+    let kept = steps().run(q, z, 0.0..3.0).expect("runs");
+    let mut seen = Vec::new();
+    let mut most = 0;
+    let end = steps().visit((q, z), 0.0..3.0, |step| {
+        most = most.max(step.report.closed);
+        seen.push((step.state.t, step.state.q, step.state.z, step.impulses));
+    });
+    let end = end.expect("runs");
+    let all: Vec<_> = kept.iter().map(|step| (step.state.t, step.state.q, step.state.z, step.impulses)).collect();
+    assert_eq!(seen, all);
+    assert_eq!((end.samples.len(), end.start.t, most), (1, all[all.len() - 2].0, 1));
+    assert_eq!((end.state_jumps.len(), end.passages.len()), (1, kept.passages.len()));
+    let t = 0.5 * (end.start.t + 3.0);
+    assert_eq!(end.at(t).expect("the last step").q, kept.at(t).expect("a step").q);
+    assert_eq!(end.at(1.0).unwrap_err().kind, ContactErrorKind::OutsideRun);
+    // What is refused has handed on what was made.
+    let (mut count, limited) = (0, steps().max_steps(7));
+    let error = limited.visit((q, z), 0.0..3.0, |_| count += 1).unwrap_err();
+    assert_eq!((error.kind, count), (ContactErrorKind::TooManySteps { limit: 7 }, 7));
+}
+
+/// A slider with a damper that explicit methods cannot pass over, above a floor.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(x, height),
+    particle(mass = 1, position = [x, 0, height]),
+    spring(strut, along = x, stiffness = 1, damping = 1e8),
+    contact(floor, gap = height),
+)]
+struct Slow {}
+
+#[test]
+fn stiff_runs_from_event_to_event_are_told_of_steps() {
+    let kernel = Slow {}.kernel().expect("a slider");
+    let run = ContactRun::new(&kernel).adaptive(1e-6, 1e-6).max_steps(20_000);
+    let error = run.run([1.0, 1.0].into(), [0.0, 0.0].into(), 0.0..1e3).map(|_| ()).unwrap_err();
+    let ContactErrorKind::Integration(cause) = &error.kind else { panic!("{error}") };
+    assert!(matches!(cause.kind, IntegrationErrorKind::Stiff { .. }), "{error}");
+    assert!(error.to_string().contains("contact steps pass over it"), "{error}");
+}
