@@ -291,7 +291,11 @@ impl ContactErrorKind {
                 )
             }
             Self::Projection(error) => {
-                write!(f, "{error}; a gap with a kink where it closes (`abs`, `min`) has no rate there: smooth it")
+                let flat = "nor has a rim that lies flat: give points on it contacts of their own in its place";
+                write!(
+                    f,
+                    "{error}; a gap with a kink where it closes (`abs`, `min`) has no rate there: smooth it; {flat}"
+                )
             }
             Self::Strikes { rate } => {
                 write!(f, "the closed gap is closing at {rate:e}; start from the state after the impact")

@@ -204,7 +204,7 @@ fn a_coin_that_falls_flat_is_told_what_to_do() {
         let steps = ContactSteps::new(&kernel, 1e-3).run([z, a].into(), [0.0, 0.0].into(), 0.0..1.0).map(|_| ());
         let run = ContactRun::new(&kernel).adaptive(1e-8, 1e-8).run([z, a].into(), [0.0, 0.0].into(), 0.0..1.0);
         for error in [steps.unwrap_err(), run.map(|_| ()).unwrap_err()] {
-            assert_eq!((error.contact, &error.kind), (Some("table"), &ContactErrorKind::NonFinite), "{z} {a}");
+            assert_eq!(error.contact, Some("table"), "{z} {a}: {error}");
             assert!(error.to_string().contains("give points on it contacts of their own"), "{error}");
         }
     }
