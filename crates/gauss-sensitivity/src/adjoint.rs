@@ -10,10 +10,10 @@ use gauss_runtime::integrate::{IntegrationError, Problem, State};
 
 use crate::checkpoints::reverse;
 use crate::error::SensitivityError;
-use crate::forward::{advance, after_step, check_rate};
+use crate::forward::{advance, after_step, check_rate, enter};
 use crate::mesh::{Mesh, initial};
-use crate::run::{At, Cost, Equations, Fed, Run, equations};
-use crate::states::{ComponentsOf, by_increments, in_numbers, numbers_of};
+use crate::run::{At, Cost, Equations, Fed, InputOf, Run, equations};
+use crate::states::{ComponentsOf, Held, by_increments, in_numbers, numbers_of, recast};
 use crate::steps::Steps;
 use crate::tape::{Adjoints, Recording, Taped};
 
@@ -59,6 +59,8 @@ struct Back<'a, R: Run<P>, C, const P: usize> {
     adjoints: Adjoints,
     /// Derivatives of the cost by the components of q and by z where the way back has come to.
     by_state: Vec<f64>,
+    /// Those by the input that is held there.
+    by_input: Vec<f64>,
     /// Its derivative by the time there, where that is the time of an event.
     by_time: f64,
     /// Contribution of each instant to the cost.
@@ -74,6 +76,8 @@ struct Taking {
     end: Vec<Taped>,
     to: Taped,
     h: Taped,
+    /// The input that is held, at the start and at the end: the start has none where it is sampled there.
+    held: [Vec<Taped>; 2],
     cost: Taped,
     /// The function that ends the run, with its value at the start of the step.
     event: Option<(Taped, f64)>,
@@ -89,14 +93,17 @@ impl<R: Cost<P>, C: Steps, const P: usize> Back<'_, R, C, P> {
     }
 
     /// Writes a step down.
-    fn take(&mut self, state: &State<R::System<f64>>, n: usize) -> Result<Taking, SensitivityError> {
+    fn take(&mut self, held: &Held<R::System<f64>>, n: usize) -> Result<Taking, SensitivityError> {
         let (recording, [from, to]) = (self.recording, [self.mesh.times[n], self.mesh.times[n + 1]]);
         let ends = self.mesh.is_event(n);
-        self.problem.input.number = self.mesh.interval(n);
         recording.truncate(self.kept);
         let moves = self.mesh.starts_at_event(n);
         let from = if moves { recording.variable(from) } else { Taped::constant(from) };
-        let start: State<R::System<Taped>> = in_numbers(state, from, |number| recording.variable(number));
+        let start: State<R::System<Taped>> = in_numbers(&held.state, from, |number| recording.variable(number));
+        self.problem.input.held = held.input.map(|input| recast(&input, &mut |number| recording.variable(number)));
+        let before = self.held().filter(|_| !self.mesh.samples_before(n));
+        enter(&mut self.problem, self.mesh, n, &start);
+        let held = [before, self.held()].map(Option::unwrap_or_default);
         let h = match (ends, moves) {
             (true, _) => recording.variable(to - from.value()),
             (false, true) => Taped::constant(to) - from,
@@ -110,15 +117,23 @@ impl<R: Cost<P>, C: Steps, const P: usize> Back<'_, R, C, P> {
         let event = ends.then(|| (function(&end), function(&start).value()));
         end = after_step(&self.problem, self.mesh, (n, end))?;
         let cost = self.cost(n + 1, &end);
-        let to = end.t;
-        Ok(Taking { start: numbers_of(&start).collect(), from, end: numbers_of(&end).collect(), to, h, cost, event })
+        let (to, start, end) = (end.t, numbers_of(&start).collect(), numbers_of(&end).collect());
+        Ok(Taking { start, from, end, to, h, held, cost, event })
+    }
+
+    /// The numbers of the input that is held.
+    fn held(&self) -> Option<Vec<Taped>> {
+        let input = self.problem.input.held?;
+        Some((0..InputOf::<R::System<Taped>>::DIM).map(|i| input.component(i)).collect())
     }
 
     /// From the end of a step to its start.
-    fn back(&mut self, state: &State<R::System<f64>>, n: usize) -> Result<(), SensitivityError> {
-        let step = self.take(state, n)?;
+    fn back(&mut self, start: &Held<R::System<f64>>, n: usize) -> Result<(), SensitivityError> {
+        let step = self.take(start, n)?;
+        let [held, kept] = &step.held;
         let mut seeds = vec![(step.cost, 1.0)];
         seeds.extend(step.end.iter().copied().zip(self.by_state.iter().copied()));
+        seeds.extend(kept.iter().copied().zip(self.by_input.iter().copied()));
         seeds.push((step.to, self.by_time));
         if let Some((function, before)) = step.event {
             // The end moves by −∂w/w′ when the function w changes by ∂w.
@@ -136,6 +151,7 @@ impl<R: Cost<P>, C: Steps, const P: usize> Back<'_, R, C, P> {
         seeds.iter().for_each(|&(number, seed)| self.adjoints.add(number, seed));
         self.adjoints.sweep(self.recording, self.kept..self.recording.len());
         self.by_state = step.start.iter().map(|&number| self.adjoints.of(number)).collect();
+        self.by_input = held.iter().map(|&number| self.adjoints.of(number)).collect();
         self.by_time = if self.mesh.starts_at_event(n) { self.adjoints.of(step.from) } else { 0.0 };
         self.adjoints.truncate(self.kept);
         let finite = self.by_state.iter().all(|by| by.is_finite()) && step.cost.value().is_finite();
@@ -171,14 +187,16 @@ pub(crate) fn gradient<R: Cost<P>, C: Steps, const P: usize>(
     let by_state = vec![0.0; first.len()];
     let costs = vec![0.0; mesh.instants()];
     let adjoints = Adjoints::default();
-    let mut way = Back { steps, mesh, recording, problem, kept: 0, adjoints, by_state, by_time: 0.0, costs };
+    let (by_input, by_time) = (Vec::new(), 0.0);
+    let mut way = Back { steps, mesh, recording, problem, kept: 0, adjoints, by_state, by_input, by_time, costs };
     let at_start = way.cost(0, &taped);
     way.kept = recording.len();
     way.adjoints.add(at_start, 1.0);
 
     let room = room.unwrap_or_else(|| usual_room(mesh.steps()));
-    let forward = |state, from, to| advance((run, steps, mesh), (&plain, numbers), state, from..to);
-    let (repeated, states) = reverse(start, mesh.steps(), room, forward, |state, n| way.back(&state, n))?;
+    let forward = |held, from, to| advance((run, steps, mesh), (&plain, numbers), held, from..to);
+    let first_held = Held { state: start, input: None };
+    let (repeated, states) = reverse(first_held, mesh.steps(), room, forward, |held, n| way.back(&held, n))?;
 
     recording.truncate(way.kept);
     first.iter().zip(&way.by_state).for_each(|(&number, &by)| way.adjoints.add(number, by));
@@ -195,7 +213,7 @@ pub(crate) fn gradient<R: Cost<P>, C: Steps, const P: usize>(
     }
     let (by_components, by_z) = by_first.split_at(ComponentsOf::<R::System<f64>>::DIM);
     let by_q = by_increments::<R::System<f64>>(&start.q, by_components);
-    let bytes = recording.most_bytes() + states * size_of::<State<R::System<f64>>>() + mesh.bytes();
+    let bytes = recording.most_bytes() + states * size_of::<Held<R::System<f64>>>() + mesh.bytes();
     let effort = Effort { steps: mesh.steps(), repeated, states, bytes };
     Ok(Gradient { value, by_numbers, by_q, by_z: by_z.to_vec(), effort })
 }

@@ -9,7 +9,7 @@ use gauss_runtime::system::GaussSystem;
 use crate::error::SensitivityError;
 use crate::mesh::{Mesh, initial};
 use crate::run::{At, Equations, Residuals, Run, equations};
-use crate::states::{ComponentsOf, TangentOf, in_numbers, increment, numbers_of};
+use crate::states::{ComponentsOf, Held, TangentOf, in_numbers, increment, numbers_of, recast};
 use crate::steps::Steps;
 
 /// Directions that are followed at once: kernels in more of them take long to compile.
@@ -56,7 +56,7 @@ fn walk<R: Run<P>, C: Steps, T: Real, const P: usize>(
     show(0, &state);
     let mut rates_of_events = rates.iter().copied();
     for (n, pair) in mesh.times.windows(2).enumerate() {
-        problem.input.number = mesh.interval(n);
+        enter(&mut problem, mesh, n, &state);
         let rates = problem.rates(&state);
         let step = |h: T| {
             let end = steps.step(&problem, &state, &rates, h);
@@ -81,6 +81,19 @@ fn walk<R: Run<P>, C: Steps, T: Real, const P: usize>(
     Ok(())
 }
 
+/// The input of a step: that of its interval, and what is sampled at its start.
+pub(crate) fn enter<R: Run<P>, T: Real, const P: usize>(
+    problem: &mut Equations<'_, R, T, P>,
+    mesh: &Mesh,
+    n: usize,
+    start: &State<R::System<T>>,
+) {
+    problem.input.number = mesh.interval(n);
+    if mesh.samples_before(n) {
+        problem.input.sample(start);
+    }
+}
+
 /// The end of a step, after the jump where its event has one.
 pub(crate) fn after_step<R: Run<P>, T: Real, const P: usize>(
     problem: &Equations<'_, R, T, P>,
@@ -99,17 +112,19 @@ fn rates_of_events<R: Run<P>, C: Steps, const P: usize>(
     numbers: &[f64; P],
 ) -> Result<Vec<f64>, SensitivityError> {
     let plain = run.system(numbers)?;
-    let mut state = initial(&equations(run, numbers, &plain), mesh)?;
+    let state = initial(&equations(run, numbers, &plain), mesh)?;
+    let mut held = Held { state, input: None };
     let constants = &numbers.map(Number::constant);
     let system = run.system(constants)?;
     let mut problem = equations(run, constants, &system);
     let (mut made, mut rates) = (0, Vec::new());
     for n in (0..mesh.steps()).filter(|&n| mesh.is_event(n)) {
-        state = advance((run, steps, mesh), (&plain, numbers), state, made..n)?;
+        held = advance((run, steps, mesh), (&plain, numbers), held, made..n)?;
         made = n;
-        problem.input.number = mesh.interval(n);
         let (from, to) = (mesh.times[n], mesh.times[n + 1]);
-        let start: State<R::System<Number>> = in_numbers(&state, Number::constant(from), Number::constant);
+        let start: State<R::System<Number>> = in_numbers(&held.state, Number::constant(from), Number::constant);
+        problem.input.held = held.input.map(|input| recast(&input, &mut Number::constant));
+        enter(&mut problem, mesh, n, &start);
         let h = Number::variable(to - from, 0);
         let end = steps.step(&problem, &start, &problem.rates(&start), h);
         let end = end.map_err(|kind| IntegrationError::at(&problem, &start, kind))?;
@@ -133,19 +148,20 @@ pub(crate) fn check_rate(time: f64, rate: f64, mean: f64) -> Result<(), Sensitiv
 pub(crate) fn advance<R: Run<P>, C: Steps, const P: usize>(
     (run, steps, mesh): (&R, &C, &Mesh),
     (system, numbers): (&R::System<f64>, &[f64; P]),
-    mut state: State<R::System<f64>>,
+    Held { mut state, input }: Held<R::System<f64>>,
     which: std::ops::Range<usize>,
-) -> Result<State<R::System<f64>>, SensitivityError> {
+) -> Result<Held<R::System<f64>>, SensitivityError> {
     let mut problem = equations(run, numbers, system);
+    problem.input.held = input;
     for n in which {
-        problem.input.number = mesh.interval(n);
+        enter(&mut problem, mesh, n, &state);
         let h = mesh.times[n + 1] - mesh.times[n];
         let end = steps.step(&problem, &state, &problem.rates(&state), h);
         state = end.map_err(|kind| IntegrationError::at(&problem, &state, kind))?;
         state.t = mesh.times[n + 1];
         state = after_step(&problem, mesh, (n, state))?;
     }
-    Ok(state)
+    Ok(Held { state, input: problem.input.held })
 }
 
 /// Goes along a run as often as all directions need: `see` gets the number of the first direction with each state.

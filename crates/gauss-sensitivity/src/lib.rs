@@ -12,7 +12,8 @@
 //!
 //! All are exact derivatives of the steps that were made, whose lengths the values choose. Rotations and poses are
 //! differentiated as increments seen from the body, `q ∘ exp(σ)`; constraints hold differentiated; an event that ends
-//! the run, or at which its state jumps, has the derivative of its time. Not differentiated: contacts (which have
+//! the run, or at which its state jumps, has the derivative of its time; samples of a controller are functions of the
+//! state. Not differentiated: contacts (which have
 //! derivatives in dual numbers, `gauss-contact`), implicit methods, the momentum form.
 //!
 //! | file | holds |
@@ -23,6 +24,7 @@
 //! | `forward` | along a run, in dual numbers |
 //! | [`tape`] | a scalar that writes down what is done with it |
 //! | `adjoint` | back through a run, step by step |
+//! | `saltation` | an event, and its jump, in a product of derivatives of steps: [`Saltation`] |
 //! | `checkpoints` | which states are kept on the way back |
 //! | `fit` | least squares |
 
@@ -38,6 +40,7 @@ mod fit;
 mod forward;
 mod mesh;
 pub mod run;
+mod saltation;
 mod states;
 mod steps;
 pub mod tape;
@@ -48,6 +51,7 @@ pub use error::{EnsembleError, SensitivityError};
 pub use fit::{Fit, FitError};
 pub use forward::Point;
 pub use run::{At, ConfigurationOf, Cost, InputOf, Residuals, Run, SpeedsOf, Start};
+pub use saltation::Saltation;
 pub use states::constant;
 pub use steps::Steps;
 

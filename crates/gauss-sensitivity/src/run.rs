@@ -117,6 +117,15 @@ pub trait Run<const P: usize> {
         InputOf::<Self::System<T>>::zero()
     }
 
+    /// The period of a controller that samples: with one, [`input`](Self::input) is asked at the start of the run and
+    /// every period after that, and what it gives is held in between, as by
+    /// [`Simulation::sampled`](gauss_runtime::integrate::Simulation::sampled); without, it is asked at every time.
+    /// Derivatives pass through what each sample makes of the state. Steps end at samples as at instants; the run goes
+    /// forward in time.
+    fn period(&self) -> Option<f64> {
+        None
+    }
+
     /// A function that ends the run where it passes through zero in a direction; none, where this is not written. The
     /// answer is `Some` for all states or for none, always with the same direction. The state and the time there have
     /// derivatives where the function passes at a rate.
@@ -160,11 +169,22 @@ pub(crate) struct Fed<'a, R: Run<P>, T: Real, const P: usize> {
     pub(crate) numbers: &'a [T; P],
     pub(crate) system: &'a R::System<T>,
     pub(crate) number: usize,
+    /// What a controller that samples holds.
+    pub(crate) held: Option<InputOf<R::System<T>>>,
 }
+
+// Written by hand: deriving would ask the same of what is only named here.
+impl<R: Run<P>, T: Real, const P: usize> Clone for Fed<'_, R, T, P> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<R: Run<P>, T: Real, const P: usize> Copy for Fed<'_, R, T, P> {}
 
 impl<T: Real, R: Run<P>, const P: usize> InputSource<R::System<T>> for Fed<'_, R, T, P> {
     fn input(&self, t: T, q: &ConfigurationOf<R::System<T>>, z: &SpeedsOf<R::System<T>>) -> InputOf<R::System<T>> {
-        self.run.input(self.numbers, &self.at(t, q, z))
+        self.held.unwrap_or_else(|| self.run.input(self.numbers, &self.at(t, q, z)))
     }
 }
 
@@ -179,17 +199,17 @@ impl<'a, T: Real, R: Run<P>, const P: usize> Fed<'a, R, T, P> {
         At { number: self.number, ended: false, system: self.system, t, q, z }
     }
 
+    /// Samples a state: its input is held from there on.
+    pub(crate) fn sample(&mut self, state: &State<R::System<T>>) {
+        self.held = Some(self.run.input(self.numbers, &self.at(state.t, &state.q, &state.y)));
+    }
+
     /// The state after the jump of the event, if it has one; else the state.
     pub(crate) fn jumped(&self, state: &State<R::System<T>>) -> Result<State<R::System<T>>, IntegrationErrorKind> {
         let Some((q, z)) = self.run.jump(self.numbers, &self.at(state.t, &state.q, &state.y)) else {
             return Ok(*state);
         };
-        if !R::System::<T>::CONSTRAINED {
-            return Ok(State { t: state.t, q: q.renormalise(), y: z });
-        }
-        let projected = self.system.project(state.t, &q, &z);
-        let (q, y) = projected.map_err(|error| IntegrationErrorKind::Projection { error })?;
-        Ok(State { t: state.t, q, y })
+        consistent(self.system, state.t, (q, z))
     }
 
     /// The function that ends the run; NaN where there is none.
@@ -197,6 +217,20 @@ impl<'a, T: Real, R: Run<P>, const P: usize> Fed<'a, R, T, P> {
         let found = self.run.until(self.numbers, &self.at(t, q, z));
         found.map_or(T::from_f64(f64::NAN), |(_, value)| value)
     }
+}
+
+/// The state after a jump, on the constraints where there are any.
+pub(crate) fn consistent<S: GaussSystem>(
+    system: &S,
+    t: S::Scalar,
+    (q, z): Start<S>,
+) -> Result<State<S>, IntegrationErrorKind> {
+    if !S::CONSTRAINED {
+        return Ok(State { t, q: q.renormalise(), y: z });
+    }
+    let projected = system.project(t, &q, &z);
+    let (q, y) = projected.map_err(|error| IntegrationErrorKind::Projection { error })?;
+    Ok(State { t, q, y })
 }
 
 /// The equations of a run in one interval between instants.
@@ -209,5 +243,5 @@ pub(crate) fn equations<'a, R: Run<P>, T: Real, const P: usize>(
     numbers: &'a [T; P],
     system: &'a R::System<T>,
 ) -> Equations<'a, R, T, P> {
-    SystemProblem::new(system).input_from(Fed { run, numbers, system, number: 0 })
+    SystemProblem::new(system).input_from(Fed { run, numbers, system, number: 0, held: None })
 }

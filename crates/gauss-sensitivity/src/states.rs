@@ -10,8 +10,26 @@ pub(crate) type ComponentsOf<S> = <<S as GaussSystem>::Configuration as Configur
 /// The increments of a configuration.
 pub(crate) type TangentOf<S> = <<S as GaussSystem>::Configuration as Configuration>::Tangent;
 
+/// A state of a run, with the input that is held there where a controller samples.
+pub(crate) struct Held<S: GaussSystem> {
+    pub(crate) state: State<S>,
+    pub(crate) input: Option<S::Input>,
+}
+
+// Written by hand: deriving would ask the same of the system, which is only named here.
+impl<S: GaussSystem> Clone for Held<S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: GaussSystem> Copy for Held<S> {}
+
 /// A vector with other numbers in the same places.
-fn recast<T: Real, U: Real, V: VectorSpace<T>, W: VectorSpace<U>>(vector: &V, number: &mut impl FnMut(T) -> U) -> W {
+pub(crate) fn recast<T: Real, U: Real, V: VectorSpace<T>, W: VectorSpace<U>>(
+    vector: &V,
+    number: &mut impl FnMut(T) -> U,
+) -> W {
     const { assert!(V::DIM == W::DIM, "a system has as many components in any scalar") }
     let mut result = W::zero();
     for i in 0..V::DIM {

@@ -5,6 +5,7 @@ use super::cells::{Row, missing, moot, refused, shown, together};
 const AT_A_STATE: &str = "it happens in a run; the equations at a state have no part of it";
 const WITH_CONTACTS: &str = "crates/gauss-contact/tests/many/sampled.rs";
 const JUMPS_OF_CONTACTS: &str = "crates/gauss-contact/tests/jumps.rs";
+const SALTATION: &str = "crates/gauss-sensitivity/tests/saltation.rs";
 const BETWEEN_STEPS: &str = "what is done between two steps is the caller's";
 
 pub const SAMPLED: Row = Row {
@@ -37,7 +38,8 @@ pub const SAMPLED: Row = Row {
         ("fwd", shown("tests/tests/runs/sampled.rs", "derivatives_pass_through_samples").but("in dual numbers")),
         (
             "adj",
-            missing("`Run::input` may hold a number over each interval; a controller that samples states has no place"),
+            shown("crates/gauss-sensitivity/tests/sampled.rs", "a_cart_has_the_derivatives_of_its_recursion")
+                .but("`Run::period`: laws of the state at each sample, without a memory of their own"),
         ),
         ("lin", moot(AT_A_STATE)),
         (
@@ -129,7 +131,11 @@ pub const EVENTS: Row = Row {
         ),
         ("lin", moot(AT_A_STATE)),
         ("dst", moot("a step ends at the time that it is given; an event within it is not looked for")),
-        ("run", missing("as for a step: the time of an event has no part in the product")),
+        (
+            "run",
+            shown(SALTATION, "a_run_that_an_event_ends_has_the_derivative_of_its_time")
+                .but("`Saltation` of `gauss-sensitivity`"),
+        ),
         ("stu", shown("guide/src/studies.md", "main")),
         ("py", shown("examples/python/tests/test_methods.py", "test_events_do_not_end_a_run")),
     ],
@@ -175,7 +181,11 @@ pub const JUMPS: Row = Row {
         ),
         ("lin", moot(AT_A_STATE)),
         ("dst", moot("a step ends at the time that it is given; no jump is within it")),
-        ("run", missing("derivatives of a jump and of its time have no place in the product")),
+        (
+            "run",
+            shown(SALTATION, "the_product_over_bounces_is_the_derivative_by_the_initial_state")
+                .but("`Saltation` of `gauss-sensitivity`"),
+        ),
         ("stu", together("jump::study")),
         (
             "py",

@@ -91,8 +91,8 @@ fn memory_is_that_of_few_states_and_one_step() {
     for effort in [short, long] {
         assert!(effort.repeated <= 3 * effort.steps, "{effort:?}");
     }
-    // A state is t, q, z: 24 bytes.
-    let rest = |effort: gauss_sensitivity::Effort| effort.bytes - 8 * effort.steps - 24 * effort.states;
+    // A state is t, q, z, 24 bytes, and the input that a controller may hold there, 16.
+    let rest = |effort: gauss_sensitivity::Effort| effort.bytes - 8 * effort.steps - 40 * effort.states;
     assert_eq!(rest(short), rest(long));
     // The tape of one step: twelve stages of a kernel of some twenty operations, 32 bytes each with its adjoint.
     assert!(rest(long) < 32 * 12 * 60, "{}", rest(long));
