@@ -13,7 +13,7 @@ use crate::error::SensitivityError;
 use crate::forward::{advance, after_step, check_rate, enter};
 use crate::mesh::{Mesh, initial};
 use crate::run::{At, Cost, Equations, Fed, InputOf, Run, equations};
-use crate::states::{ComponentsOf, Held, by_increments, in_numbers, numbers_of, recast};
+use crate::states::{ComponentsOf, StateWithInput, by_increments, in_numbers, numbers_of, recast};
 use crate::steps::Steps;
 use crate::tape::{Adjoints, Recording, Taped};
 
@@ -59,7 +59,7 @@ struct Back<'a, R: Run<P>, C, const P: usize> {
     adjoints: Adjoints,
     /// Derivatives of the cost by the components of q and by z where the way back has come to.
     by_state: Vec<f64>,
-    /// Those by the input that is held there.
+    /// Its derivatives by the input that is held there.
     by_input: Vec<f64>,
     /// Its derivative by the time there, where that is the time of an event.
     by_time: f64,
@@ -93,7 +93,7 @@ impl<R: Cost<P>, C: Steps, const P: usize> Back<'_, R, C, P> {
     }
 
     /// Writes a step down.
-    fn take(&mut self, held: &Held<R::System<f64>>, n: usize) -> Result<Taking, SensitivityError> {
+    fn take(&mut self, held: &StateWithInput<R::System<f64>>, n: usize) -> Result<Taking, SensitivityError> {
         let (recording, [from, to]) = (self.recording, [self.mesh.times[n], self.mesh.times[n + 1]]);
         let ends = self.mesh.is_event(n);
         recording.truncate(self.kept);
@@ -128,7 +128,7 @@ impl<R: Cost<P>, C: Steps, const P: usize> Back<'_, R, C, P> {
     }
 
     /// From the end of a step to its start.
-    fn back(&mut self, start: &Held<R::System<f64>>, n: usize) -> Result<(), SensitivityError> {
+    fn back(&mut self, start: &StateWithInput<R::System<f64>>, n: usize) -> Result<(), SensitivityError> {
         let step = self.take(start, n)?;
         let [held, kept] = &step.held;
         let mut seeds = vec![(step.cost, 1.0)];
@@ -195,7 +195,7 @@ pub(crate) fn gradient<R: Cost<P>, C: Steps, const P: usize>(
 
     let room = room.unwrap_or_else(|| usual_room(mesh.steps()));
     let forward = |held, from, to| advance((run, steps, mesh), (&plain, numbers), held, from..to);
-    let first_held = Held { state: start, input: None };
+    let first_held = StateWithInput { state: start, input: None };
     let (repeated, states) = reverse(first_held, mesh.steps(), room, forward, |held, n| way.back(&held, n))?;
 
     recording.truncate(way.kept);
@@ -213,7 +213,7 @@ pub(crate) fn gradient<R: Cost<P>, C: Steps, const P: usize>(
     }
     let (by_components, by_z) = by_first.split_at(ComponentsOf::<R::System<f64>>::DIM);
     let by_q = by_increments::<R::System<f64>>(&start.q, by_components);
-    let bytes = recording.most_bytes() + states * size_of::<Held<R::System<f64>>>() + mesh.bytes();
+    let bytes = recording.most_bytes() + states * size_of::<StateWithInput<R::System<f64>>>() + mesh.bytes();
     let effort = Effort { steps: mesh.steps(), repeated, states, bytes };
     Ok(Gradient { value, by_numbers, by_q, by_z: by_z.to_vec(), effort })
 }

@@ -9,7 +9,7 @@ use gauss_runtime::system::GaussSystem;
 use crate::error::SensitivityError;
 use crate::mesh::{Mesh, initial};
 use crate::run::{At, Equations, Residuals, Run, equations};
-use crate::states::{ComponentsOf, Held, TangentOf, in_numbers, increment, numbers_of, recast};
+use crate::states::{ComponentsOf, StateWithInput, TangentOf, in_numbers, increment, numbers_of, recast};
 use crate::steps::Steps;
 
 /// Directions that are followed at once: kernels in more of them take long to compile.
@@ -113,7 +113,7 @@ fn rates_of_events<R: Run<P>, C: Steps, const P: usize>(
 ) -> Result<Vec<f64>, SensitivityError> {
     let plain = run.system(numbers)?;
     let state = initial(&equations(run, numbers, &plain), mesh)?;
-    let mut held = Held { state, input: None };
+    let mut held = StateWithInput { state, input: None };
     let constants = &numbers.map(Number::constant);
     let system = run.system(constants)?;
     let mut problem = equations(run, constants, &system);
@@ -148,9 +148,9 @@ pub(crate) fn check_rate(time: f64, rate: f64, mean: f64) -> Result<(), Sensitiv
 pub(crate) fn advance<R: Run<P>, C: Steps, const P: usize>(
     (run, steps, mesh): (&R, &C, &Mesh),
     (system, numbers): (&R::System<f64>, &[f64; P]),
-    Held { mut state, input }: Held<R::System<f64>>,
+    StateWithInput { mut state, input }: StateWithInput<R::System<f64>>,
     which: std::ops::Range<usize>,
-) -> Result<Held<R::System<f64>>, SensitivityError> {
+) -> Result<StateWithInput<R::System<f64>>, SensitivityError> {
     let mut problem = equations(run, numbers, system);
     problem.input.held = input;
     for n in which {
@@ -161,7 +161,7 @@ pub(crate) fn advance<R: Run<P>, C: Steps, const P: usize>(
         state.t = mesh.times[n + 1];
         state = after_step(&problem, mesh, (n, state))?;
     }
-    Ok(Held { state, input: problem.input.held })
+    Ok(StateWithInput { state, input: problem.input.held })
 }
 
 /// Goes along a run as often as all directions need: `see` gets the number of the first direction with each state.

@@ -169,7 +169,7 @@ pub(crate) struct Fed<'a, R: Run<P>, T: Real, const P: usize> {
     pub(crate) numbers: &'a [T; P],
     pub(crate) system: &'a R::System<T>,
     pub(crate) number: usize,
-    /// What a controller that samples holds.
+    /// The input that a controller that samples holds.
     pub(crate) held: Option<InputOf<R::System<T>>>,
 }
 

@@ -11,19 +11,19 @@ pub(crate) type ComponentsOf<S> = <<S as GaussSystem>::Configuration as Configur
 pub(crate) type TangentOf<S> = <<S as GaussSystem>::Configuration as Configuration>::Tangent;
 
 /// A state of a run, with the input that is held there where a controller samples.
-pub(crate) struct Held<S: GaussSystem> {
+pub(crate) struct StateWithInput<S: GaussSystem> {
     pub(crate) state: State<S>,
     pub(crate) input: Option<S::Input>,
 }
 
 // Written by hand: deriving would ask the same of the system, which is only named here.
-impl<S: GaussSystem> Clone for Held<S> {
+impl<S: GaussSystem> Clone for StateWithInput<S> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<S: GaussSystem> Copy for Held<S> {}
+impl<S: GaussSystem> Copy for StateWithInput<S> {}
 
 /// A vector with other numbers in the same places.
 pub(crate) fn recast<T: Real, U: Real, V: VectorSpace<T>, W: VectorSpace<U>>(

@@ -333,7 +333,9 @@ pub const CONTACTS: Row = Row {
 };
 
 const TOUCHING: &str = "tests/tests/goes_together/touching.rs";
-const ONE_SCALAR: &str = "`Slots` are in `f64` alone";
+const SCALARS_OF_SLOTS: &str = "crates/gauss-contact/tests/slots_in_scalars.rs";
+const ADJOINT_OF_SLOTS: &str = "as of contacts: runs of `gauss-sensitivity` have no impacts, so that bodies would fall \
+                                through floors: `IntegrationErrorKind::Contacts`";
 const OF_SLOTS: &str = "`Slots` have no such trait: a compile error";
 
 pub const SLOTS: Row = Row {
@@ -348,18 +350,22 @@ pub const SLOTS: Row = Row {
         ("evt", shown("crates/gauss-contact/tests/slots.rs", "exact_runs_and_steps_move_as_with_the_clause")),
         ("stp", shown("crates/gauss-parry/tests/scenes/arm.rs", "an_arm_pushes_a_box_over_a_table")),
         ("one", refused(FREE_STEP)),
-        ("lan", missing(ONE_SCALAR)),
-        ("thr", missing("`ContactEnsemble` takes packs, and slots are in `f64` alone")),
+        ("lan", shown(SCALARS_OF_SLOTS, "lanes_of_slots_have_the_bits_and_the_data_of_single_ones")),
+        ("thr", shown(SCALARS_OF_SLOTS, "threads_of_slots_have_the_bits_of_one")),
         ("at", shown(TOUCHING, "states_of_slots_between_samples")),
         ("tab", shown(TOUCHING, "slots_in_tables_and_plots")),
         ("plt", shown(TOUCHING, "slots_in_tables_and_plots")),
         ("pag", shown(TOUCHING, "slots_in_pages")),
-        ("mon", missing("`Slots` have no powers, so that `energy_balance` is not there; `report.work` is")),
-        ("fwd", missing(ONE_SCALAR)),
-        ("adj", missing(ONE_SCALAR)),
-        ("lin", missing(OF_SLOTS)),
-        ("dst", missing(ONE_SCALAR)),
-        ("run", missing(ONE_SCALAR)),
+        ("mon", shown(SCALARS_OF_SLOTS, "energy_of_slots_is_accounted_for").but("by events; of steps `report.work`")),
+        ("fwd", shown(SCALARS_OF_SLOTS, "runs_of_slots_have_derivatives").but("by events, in dual numbers")),
+        ("adj", refused(ADJOINT_OF_SLOTS)),
+        ("lin", shown(SCALARS_OF_SLOTS, "slots_in_their_modes_have_derivatives_at_a_state").but("`InMode` in dual numbers")),
+        (
+            "dst",
+            shown(SCALARS_OF_SLOTS, "steps_of_slots_have_the_derivatives_of_the_clause")
+                .but("by `step_with_derivatives`; `step_linearized` needs `linearize`, which slots have not: a compile error"),
+        ),
+        ("run", shown(SCALARS_OF_SLOTS, "steps_of_slots_after_one_another_are_a_run")),
         ("stu", shown(TOUCHING, "slots_in_rows_of_studies")),
         ("py", missing("there is no class for them")),
     ],

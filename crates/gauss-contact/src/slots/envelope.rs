@@ -6,41 +6,41 @@
 use gauss_runtime::nalgebra::SMatrix;
 use gauss_runtime::real::Real;
 
-/// L of a matrix of D rows.
-pub(super) struct Envelope<const D: usize> {
-    lower: SMatrix<f64, D, D>,
+/// L of a matrix of D rows. Of packs zeros are those of all lanes, and of numbers with derivatives what has none.
+pub(super) struct Envelope<T, const D: usize> {
+    lower: SMatrix<T, D, D>,
     /// First column of each row that is not zero.
     first: [usize; D],
 }
 
-impl<const D: usize> Envelope<D> {
+impl<T: Real, const D: usize> Envelope<T, D> {
     /// Factors a symmetric matrix, whose entries on and below the diagonal are read. One that is not positive definite
     /// gives no finite numbers.
-    pub(super) fn of(mut lower: SMatrix<f64, D, D>) -> Self {
-        let first = core::array::from_fn(|i| (0..i).find(|&j| lower[(i, j)] != 0.0).unwrap_or(i));
+    pub(super) fn of(mut lower: SMatrix<T, D, D>) -> Self {
+        let first = core::array::from_fn(|i| (0..i).find(|&j| lower[(i, j)] != T::zero()).unwrap_or(i));
         for i in 0..D {
             for j in first[i]..=i {
                 let common = first[i].max(first[j])..j;
                 let rest = common.fold(lower[(i, j)], |sum, k| sum - lower[(i, k)] * lower[(j, k)]);
-                lower[(i, j)] = if i == j { Real::sqrt(rest) } else { rest / lower[(j, j)] };
+                lower[(i, j)] = if i == j { rest.sqrt() } else { rest / lower[(j, j)] };
             }
         }
         Self { lower, first }
     }
 
     /// L⁻¹ of a vector that is zero before `from`.
-    pub(super) fn forward(&self, x: &mut [f64], from: usize) {
+    pub(super) fn forward(&self, x: &mut [T], from: usize) {
         for i in from..D {
             let rest = (self.first[i].max(from)..i).fold(x[i], |sum, k| sum - self.lower[(i, k)] * x[k]);
-            x[i] = if rest == 0.0 { 0.0 } else { rest / self.lower[(i, i)] };
+            x[i] = if rest == T::zero() { rest } else { rest / self.lower[(i, i)] };
         }
     }
 
     /// L⁻ᵀ of a vector.
-    pub(super) fn backward(&self, x: &mut [f64]) {
+    pub(super) fn backward(&self, x: &mut [T]) {
         for i in (0..D).rev() {
             // Of bodies that do not touch.
-            if x[i] != 0.0 {
+            if x[i] != T::zero() {
                 x[i] /= self.lower[(i, i)];
                 let entry = x[i];
                 (self.first[i]..i).for_each(|k| x[k] -= self.lower[(i, k)] * entry);
@@ -50,11 +50,11 @@ impl<const D: usize> Envelope<D> {
 }
 
 /// Range of rows in which each column is not zero: from, and up to.
-pub(super) fn extents<const D: usize, const R: usize>(columns: &SMatrix<f64, D, R>) -> [(usize, usize); R] {
+pub(super) fn extents<T: Real, const D: usize, const R: usize>(columns: &SMatrix<T, D, R>) -> [(usize, usize); R] {
     core::array::from_fn(|row| {
         let x = &columns.data.0[row];
-        let from = x.iter().position(|x| *x != 0.0).unwrap_or(D);
-        (from, x.iter().rposition(|x| *x != 0.0).map_or(from, |last| last + 1))
+        let from = x.iter().position(|x| *x != T::zero()).unwrap_or(D);
+        (from, x.iter().rposition(|x| *x != T::zero()).map_or(from, |last| last + 1))
     })
 }
 

@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use gauss_runtime::__crates_0_1_0::{Triple, cross, scaled, sub, triple};
 use gauss_runtime::nalgebra::Vector3;
 use gauss_runtime::real::Real;
 
@@ -9,25 +10,26 @@ use gauss_runtime::real::Real;
 /// scene.
 ///
 /// `F` names the frames of a kernel (`KernelFrame` of `frames(…)`); `None` is what is at rest: axes of the observer,
-/// places from Ω. The contact force acts on the body of the point along the normal, and back on that of the plane.
+/// places from Ω. The contact force acts on the body of the point along the normal, and back on that of the plane. `T`
+/// is the scalar of the kernel: lanes have data of their own, and derivatives may be those by a datum.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slot<F> {
+pub struct Slot<F, T = f64> {
     /// The frame with the point.
     pub first: Option<F>,
     /// The point, from the origin of `first` in its axes.
-    pub point: Vector3<f64>,
+    pub point: Vector3<T>,
     /// The radius of a sphere about the point; 0 where it is the point that touches.
-    pub radius: f64,
+    pub radius: T,
     /// The frame with the plane.
     pub second: Option<F>,
     /// A point of the plane, from the origin of `second` in its axes.
-    pub origin: Vector3<f64>,
+    pub origin: Vector3<T>,
     /// Out of the plane, towards the point where the gap is open, in the axes of `second`; of any length but 0.
-    pub normal: Vector3<f64>,
+    pub normal: Vector3<T>,
     /// μ of Coulomb's friction, the same along all tangents.
-    pub friction: f64,
+    pub friction: T,
     /// e of Newton's law, from 0 to 1.
-    pub restitution: f64,
+    pub restitution: T,
 }
 
 /// A slot whose data are refused.
@@ -121,9 +123,41 @@ impl fmt::Display for SlotRule {
 
 impl core::error::Error for SlotError {}
 
-impl<F: Copy + PartialEq> Slot<F> {
+impl<F: Copy + PartialEq, T: Real> Slot<F, T> {
+    /// The slot in another scalar.
+    #[must_use]
+    pub fn map<U: Real>(&self, mut number: impl FnMut(T) -> U) -> Slot<F, U> {
+        let Self { first, point, radius, second, origin, normal, friction, restitution } = self;
+        let mut vector = |vector: &Vector3<T>| Vector3::from(vector.data.0[0].map(&mut number));
+        let (point, origin, normal) = (vector(point), vector(origin), vector(normal));
+        let [radius, friction, restitution] = [*radius, *friction, *restitution].map(number);
+        Slot { first: *first, point, radius, second: *second, origin, normal, friction, restitution }
+    }
+
     /// The slot with a normal of length one, or the error in it.
     pub(super) fn checked(&self, slot: usize) -> Result<Self, SlotError> {
+        for lane in 0..T::LANES {
+            self.map(|number| number.lane(lane)).check(slot)?;
+        }
+        Ok(Self { normal: of_length_one(triple(&self.normal)).into(), ..*self })
+    }
+
+    /// The normal, then two tangents.
+    ///
+    /// The first tangent is what of the first axis is normal to the normal, and of the second axis where that is
+    /// little: between neighbouring normals it jumps at |n₁| = 0.8 alone, where no face of a box that lies along the
+    /// axes is, so that impulses along tangents of one step begin the next.
+    pub(super) fn axes(&self) -> [Triple<T>; 3] {
+        let (n, one) = (triple(&self.normal), T::one());
+        let along = T::select_lt(n[0].abs(), T::from_f64(0.8), one, T::zero());
+        let axis = [along, one - along, T::zero()];
+        let first = of_length_one(sub(axis, scaled(dot(n, axis), n)));
+        [n, first, cross(n, first)]
+    }
+}
+
+impl<F: Copy + PartialEq> Slot<F> {
+    fn check(&self, slot: usize) -> Result<(), SlotError> {
         let refuse = |field, value, rule| Err(SlotError { slot, field, value, rule });
         if self.first == self.second {
             return refuse(SlotField::Frames, 1.0, SlotRule::Different);
@@ -145,21 +179,21 @@ impl<F: Copy + PartialEq> Slot<F> {
         if !(0.0..=1.0).contains(&self.restitution) {
             return refuse(SlotField::Restitution, self.restitution, SlotRule::UpToOne);
         }
-        Ok(Self { normal: self.normal / size, ..*self })
+        Ok(())
     }
+}
 
-    /// The normal, then two tangents.
-    ///
-    /// The first tangent is what of the first axis is normal to the normal, and of the second axis where that is
-    /// little: between neighbouring normals it jumps at |n₁| = 0.8 alone, where no face of a box that lies along the
-    /// axes is, so that impulses along tangents of one step begin the next.
-    pub(super) fn axes(&self) -> [Vector3<f64>; 3] {
-        let n = self.normal;
-        let axis = if n.x.abs() < 0.8 { Vector3::x() } else { Vector3::y() };
-        let across = axis - n * n.dot(&axis);
-        let first = across / length(&across);
-        [n, first, n.cross(&first)]
-    }
+/// a · b, each product rounded: what is symmetric stays so.
+pub(super) fn dot<T: Real>(a: Triple<T>, b: Triple<T>) -> T {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// A vector over its length; its squares neither overflow nor vanish.
+fn of_length_one<T: Real>(x: Triple<T>) -> Triple<T> {
+    let largest = x.into_iter().fold(T::zero(), |largest, x| largest.max(x.abs()));
+    let part = x.map(|x| x / largest);
+    let length = largest * dot(part, part).sqrt();
+    x.map(|x| x / length)
 }
 
 /// The length of a vector whose squares neither overflow nor vanish.
