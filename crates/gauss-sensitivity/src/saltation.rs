@@ -37,7 +37,7 @@ use crate::states::{ComponentsOf, TangentOf, in_numbers, increment, numbers_of};
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// let (kernel, dual) = (Ball { g: 10.0 }.kernel()?, Ball { g: Dual::<2>::constant(10.0) }.kernel()?);
-/// let step = |q, z, h| CommutatorFree4.step_linearized(&kernel, 0.0, q, z, &(), h);
+/// let step = |q: &_, z: &_, h| CommutatorFree4.step_linearized(&kernel, 0.0, q, z, &(), h);
 /// // From 5 m the ball is on the floor after a second, at 10 m/s; eight tenths of that are left.
 /// let fall = step(&SVector::from([5.0]), &SVector::from([0.0]), 1.0)?;
 /// let kept = Dual::constant(-0.8);

@@ -358,7 +358,7 @@ pub const SLOTS: Row = Row {
         ("pag", shown(TOUCHING, "slots_in_pages")),
         ("mon", shown(SCALARS_OF_SLOTS, "energy_of_slots_is_accounted_for").but("by events; of steps `report.work`")),
         ("fwd", shown(SCALARS_OF_SLOTS, "runs_of_slots_have_derivatives").but("by events, in dual numbers")),
-        ("adj", refused(ADJOINT_OF_SLOTS)),
+        ("adj", refused(ADJOINT_OF_SLOTS).by(TOUCHING, "whole_runs_of_slots_are_not_differentiated_without_their_forces")),
         ("lin", shown(SCALARS_OF_SLOTS, "slots_in_their_modes_have_derivatives_at_a_state").but("`InMode` in dual numbers")),
         (
             "dst",

@@ -7,6 +7,7 @@ use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::description::DescribedSystem;
 use gauss_runtime::dual::Dual;
 use gauss_runtime::prelude::*;
+use gauss_sensitivity::{At, Cost, Derivatives, Run, SensitivityError};
 use gauss_study::{Declaration, uniform};
 use gauss_tables::Tabulate;
 
@@ -280,4 +281,58 @@ fn states_of_slots_between_samples() {
 #[test]
 fn slots_in_rows_of_studies() {
     study(end_of_ball);
+}
+
+/// A ball in any scalar.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(pose: Pose),
+    body(ball, position = pose.position, rotation = pose.rotation, mass = m, inertia = 0.03),
+    frames(ball), gravity = 9.81,
+)]
+struct AnyBall<T> {
+    m: T,
+}
+
+/// By its mass, over a floor that is a slot; the kernel lives on, since slots refer to it.
+struct OverSlots;
+
+impl Run<1> for OverSlots {
+    type System<T: Real> = Slots<'static, AnyBallKernel<T>, 1, 3, 6>;
+
+    fn instants(&self) -> &[f64] {
+        &[0.0, 1.0]
+    }
+
+    fn system<T: Real>(&self, &[m]: &[T; 1]) -> Result<Self::System<T>, ParameterError> {
+        let mut slots = Slots::new(&*Box::leak(Box::new(AnyBall { m }.kernel()?)));
+        let [zero, one] = [T::zero(), T::one()];
+        let (origin, normal) = ([zero; 3].into(), [zero, zero, one].into());
+        let (first, radius) = (Some(AnyBallFrame::ball), T::from_f64(0.2));
+        let floor =
+            Slot { first, point: origin, radius, second: None, origin, normal, friction: one, restitution: zero };
+        slots.set(0, floor).expect("a floor");
+        Ok(slots)
+    }
+
+    fn start<T: Real>(&self, _: &[T; 1], _: &Self::System<T>) -> gauss_sensitivity::Start<Self::System<T>> {
+        let [zero, one] = [T::zero(), T::one()];
+        (Isometry3::from_components(&SVector::from([zero, zero, zero, one, zero, zero, one])), SVector::zero())
+    }
+}
+
+impl Cost<1> for OverSlots {
+    fn cost<T: Real>(&self, _: &[T; 1], at: &At<'_, Self::System<T>>) -> T {
+        at.q.translation.vector[2]
+    }
+}
+
+/// Forward and backward: a run without their forces would go through the floor.
+#[test]
+fn whole_runs_of_slots_are_not_differentiated_without_their_forces() {
+    let derivatives = Derivatives::adaptive(1e-9, 1e-9);
+    let found = [derivatives.run(&OverSlots, &[2.0]).err(), derivatives.gradient(&OverSlots, &[2.0]).err()];
+    for error in found {
+        assert!(matches!(&error, Some(SensitivityError::Run(error)) if error.kind == IntegrationErrorKind::Contacts));
+    }
 }

@@ -209,6 +209,7 @@ fn length(vector: &Vector3<f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use gauss_runtime::simd::Lanes;
 
     fn slot() -> Slot<u8> {
         Slot {
@@ -246,13 +247,20 @@ mod tests {
             let error = slot.checked(3).unwrap_err();
             assert_eq!((error.slot, error.field, error.rule), (3, field, rule));
             assert!(error.value == value || error.value.is_nan() && value.is_nan(), "{error}");
+            // One lane that is wrong is as well.
+            let mut lanes = slot.map(Lanes::<f64, 4>::splat);
+            let good = self::slot();
+            lanes.friction.0[..2].copy_from_slice(&[good.friction; 2]);
+            let error = lanes.checked(3).unwrap_err();
+            assert_eq!((error.field, error.rule), (field, rule));
         }
     }
 
     #[test]
     fn axes_are_orthonormal_for_normals_of_any_length() {
         for normal in [[0.0, 0.0, 1e-200], [1e200, 3.0, 2.0], [1.0, 1.0, 1.0], [-0.79, 0.1, -0.6], [0.0, -1.0, 1e-17]] {
-            let [n, a, b] = Slot { normal: Vector3::from(normal), ..slot() }.checked(0).unwrap().axes();
+            let axes = Slot { normal: Vector3::from(normal), ..slot() }.checked(0).unwrap().axes();
+            let [n, a, b] = axes.map(Vector3::from);
             // Each product has three terms of at most 1, of numbers that were rounded some times.
             let products = [n.dot(&n) - 1.0, a.dot(&a) - 1.0, b.dot(&b) - 1.0, n.dot(&a), n.dot(&b), a.dot(&b)];
             assert!(products.iter().all(|x| x.abs() <= 32.0 * f64::EPSILON), "{normal:?} {products:?}");
