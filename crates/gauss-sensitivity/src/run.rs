@@ -121,7 +121,7 @@ pub trait Run<const P: usize> {
     /// every period after that, and what it gives is held in between, as by
     /// [`Simulation::sampled`](gauss_runtime::integrate::Simulation::sampled); without, it is asked at every time.
     /// Derivatives pass through what each sample makes of the state. Steps end at samples as at instants; the run goes
-    /// forward in time.
+    /// forward in time. A law has no memory of its own here: an integral is a state of an element, `states(…)`.
     fn period(&self) -> Option<f64> {
         None
     }

@@ -312,7 +312,12 @@ pub const CONTACTS: Row = Row {
             shown("tests/tests/derivatives/duals/contacts.rs", "bounces_have_the_derivatives_of_their_closed_form")
                 .but("by events, in dual numbers; `gauss-sensitivity` refuses, `contacts_are_refused`"),
         ),
-        ("adj", refused(FALLS_THROUGH).but("as forward; `contacts_are_refused` asks `run` alone, not `gradient`")),
+        (
+            "adj",
+            refused(FALLS_THROUGH)
+                .but(ADJOINT_OF_CONTACTS)
+                .by("crates/gauss-sensitivity/tests/derivatives/mistakes.rs", "contacts_are_refused"),
+        ),
         (
             "lin",
             shown("tests/tests/derivatives/duals/contacts.rs", "a_system_is_linearised_in_its_mode")
@@ -334,7 +339,7 @@ pub const CONTACTS: Row = Row {
 
 const TOUCHING: &str = "tests/tests/goes_together/touching.rs";
 const SCALARS_OF_SLOTS: &str = "crates/gauss-contact/tests/slots_in_scalars.rs";
-const ADJOINT_OF_SLOTS: &str = "as of contacts: runs of `gauss-sensitivity` have no impacts, so that bodies would fall \
+const ADJOINT_OF_CONTACTS: &str = "runs of `gauss-sensitivity` have no impacts, so that bodies would fall \
                                 through floors: `IntegrationErrorKind::Contacts`";
 const OF_SLOTS: &str = "`Slots` have no such trait: a compile error";
 
@@ -358,12 +363,19 @@ pub const SLOTS: Row = Row {
         ("pag", shown(TOUCHING, "slots_in_pages")),
         ("mon", shown(SCALARS_OF_SLOTS, "energy_of_slots_is_accounted_for").but("by events; of steps `report.work`")),
         ("fwd", shown(SCALARS_OF_SLOTS, "runs_of_slots_have_derivatives").but("by events, in dual numbers")),
-        ("adj", refused(ADJOINT_OF_SLOTS).by(TOUCHING, "whole_runs_of_slots_are_not_differentiated_without_their_forces")),
-        ("lin", shown(SCALARS_OF_SLOTS, "slots_in_their_modes_have_derivatives_at_a_state").but("`InMode` in dual numbers")),
+        (
+            "adj",
+            refused(ADJOINT_OF_CONTACTS)
+                .by(TOUCHING, "whole_runs_of_slots_are_not_differentiated_without_their_forces"),
+        ),
+        (
+            "lin",
+            shown(SCALARS_OF_SLOTS, "slots_in_their_modes_have_derivatives_at_a_state").but("`InMode` in dual numbers"),
+        ),
         (
             "dst",
             shown(SCALARS_OF_SLOTS, "steps_of_slots_have_the_derivatives_of_the_clause")
-                .but("by `step_with_derivatives`; `step_linearized` needs `linearize`, which slots have not: a compile error"),
+                .but("by `step_with_derivatives`; `step_linearized` needs `linearize`, which slots have not"),
         ),
         ("run", shown(SCALARS_OF_SLOTS, "steps_of_slots_after_one_another_are_a_run")),
         ("stu", shown(TOUCHING, "slots_in_rows_of_studies")),

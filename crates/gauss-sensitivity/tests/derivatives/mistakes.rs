@@ -40,6 +40,12 @@ impl Run<1> for Touching {
     }
 }
 
+impl Cost<1> for Touching {
+    fn cost<T: Real>(&self, _: &[T; 1], at: &At<'_, BallKernel<T>>) -> T {
+        at.q[0]
+    }
+}
+
 /// By mass and gravity, at given instants; a cost that is a root of x, or asks for a gradient itself.
 struct Free {
     instants: Vec<f64>,
@@ -85,9 +91,11 @@ fn free(instants: &[f64]) -> Free {
 
 #[test]
 fn contacts_are_refused() {
-    let error = Derivatives::adaptive(1e-9, 1e-9).run(&Touching, &[9.81]).err().expect("contacts");
-    let SensitivityError::Run(error) = error else { panic!("{error}") };
-    assert_eq!(error.kind, IntegrationErrorKind::Contacts);
+    let derivatives = Derivatives::adaptive(1e-9, 1e-9);
+    for error in [derivatives.run(&Touching, &[9.81]).err(), derivatives.gradient(&Touching, &[9.81]).err()] {
+        let Some(SensitivityError::Run(error)) = error else { panic!("{error:?}") };
+        assert_eq!(error.kind, IntegrationErrorKind::Contacts);
+    }
 }
 
 #[test]
