@@ -9,7 +9,7 @@ use crate::backends::{Compiled, MOST_ARGUMENTS, interpreted};
 use crate::checks::{Checks, warnings};
 use crate::configuration::Groups;
 use crate::error::{CallError, KernelError, Misgiven};
-use crate::model::Model;
+use crate::model::{Derived, Model};
 
 /// A model with numbers for its parameters: what `kernel()` of a compiled struct gives. It needs neither the [`Model`]
 /// it was made from nor its text; threads share it.
@@ -30,12 +30,15 @@ pub struct Kernel {
 /// A method of a kernel, compiled.
 #[derive(Clone, Copy, Debug)]
 pub struct Method<'k> {
-    name: &'k str,
-    constants: &'k [f64],
+    pub(crate) name: &'k str,
+    pub(crate) constants: &'k [f64],
     arguments: &'k [Argument],
     results: &'k [Results],
     outputs: usize,
-    compiled: &'k dyn Compiled,
+    pub(crate) compiled: &'k dyn Compiled,
+    /// Lanes are made when they are first wanted.
+    pub(crate) derived: &'k Derived,
+    pub(crate) place: usize,
 }
 
 impl Model {
@@ -142,6 +145,8 @@ impl Kernel {
             results: &program.results,
             outputs: program.code.outputs.len(),
             compiled: self.model.derived.compiled(place),
+            derived: &self.model.derived,
+            place,
         })
     }
 
@@ -292,22 +297,37 @@ impl<'k> Method<'k> {
     /// # Errors
     /// Lists of other lengths.
     pub fn call(&self, arguments: &[&[f64]], results: &mut [f64]) -> Result<(), CallError> {
+        self.check(1, arguments, results)?;
+        self.run(arguments, results);
+        Ok(())
+    }
+
+    /// Refuses other lists than there are arguments, and those that have neither the numbers of so many rows nor those
+    /// of one for all.
+    pub(crate) fn check(&self, rows: usize, arguments: &[&[f64]], results: &[f64]) -> Result<(), CallError> {
         let wanted = self.arguments();
         if arguments.len() != wanted.len() {
             let expected = wanted.iter().map(|argument| argument.name.clone()).collect();
             return Err(CallError::Lists { method: self.name.to_owned(), expected, found: arguments.len() });
         }
-        let counts = wanted.iter().zip(arguments);
-        let counts = counts.map(|(argument, list)| (&argument.name[..], argument.components.len(), list.len()));
-        let mut counts = counts.chain([("results", self.outputs, results.len())]);
-        if let Some((name, expected, found)) = counts.find(|(_, expected, found)| expected != found) {
-            return Err(CallError::Count { method: self.name.to_owned(), name: name.to_owned(), expected, found });
+        let counts = wanted.iter().map(|argument| (&argument.name[..], argument.components.len()));
+        let counts = counts.zip(arguments).map(|((name, count), list)| (name, count, list.len()));
+        let wrong = counts.clone().find(|(_, count, found)| found != count && *found != count.saturating_mul(rows));
+        let of_results = ("results", self.outputs, results.len());
+        let is_wrong = results.len() != self.outputs.saturating_mul(rows);
+        if let Some((name, count, found)) = wrong.or(is_wrong.then_some(of_results)) {
+            let (method, name) = (self.name.to_owned(), name.to_owned());
+            return Err(CallError::Count { method, name, expected: count.saturating_mul(rows), found });
         }
+        Ok(())
+    }
+
+    /// Calls it with lists whose lengths were compared.
+    pub(crate) fn run(&self, arguments: &[&[f64]], results: &mut [f64]) {
         let mut all: [&[f64]; MOST_ARGUMENTS] = [&[]; MOST_ARGUMENTS];
         all[0] = self.constants;
         all[1..self.arguments.len()].copy_from_slice(arguments);
         self.compiled.run(&all[..self.arguments.len()], results);
-        Ok(())
     }
 }
 

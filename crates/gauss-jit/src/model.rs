@@ -11,7 +11,7 @@ use gauss_codegen::program::{Argument, Counts, Instruction, Program, Results};
 use gauss_codegen::{Derivation, Notation, Scene};
 use gauss_runtime::contact::Contact;
 
-use crate::backends::{Backend, Compiled, interpreted};
+use crate::backends::{Backend, Compiled, CompiledLanes, interpreted};
 use crate::error::{CallError, Mistake, Mistakes, Place, TableMistakes};
 use crate::names::contacts;
 use crate::tables::{self, Array, Tables};
@@ -32,6 +32,7 @@ pub(crate) struct Derived {
     pub contacts: &'static [Contact],
     pub tables: Tables,
     compiled: Vec<OnceLock<Box<dyn Compiled>>>,
+    lanes: Vec<OnceLock<Option<Box<dyn CompiledLanes>>>>,
     backend: Arc<dyn Backend>,
 }
 
@@ -62,7 +63,8 @@ impl Data {
 impl Derived {
     fn new(data: Data, tables: Tables, backend: Arc<dyn Backend>) -> Self {
         let compiled = data.methods.iter().map(|_| OnceLock::new()).collect();
-        Self { contacts: contacts(&data.description), data, tables, compiled, backend }
+        let lanes = data.methods.iter().map(|_| OnceLock::new()).collect();
+        Self { contacts: contacts(&data.description), data, tables, compiled, lanes, backend }
     }
 
     pub fn compiled(&self, method: usize) -> &dyn Compiled {
@@ -74,6 +76,12 @@ impl Derived {
             })
         };
         &**self.compiled[method].get_or_init(make)
+    }
+
+    /// The method for several rows at once, where the back end has that; made when it is first wanted.
+    pub fn lanes(&self, method: usize) -> Option<&dyn CompiledLanes> {
+        let make = || self.backend.compile_lanes(&self.data.methods[method], &self.tables);
+        self.lanes[method].get_or_init(make).as_deref()
     }
 }
 

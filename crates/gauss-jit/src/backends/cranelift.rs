@@ -16,12 +16,12 @@ use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext};
 use cranelift_jit::{JITBuilder, JITModule};
 use cranelift_module::{Linkage, Module, default_libcall_names};
 
-use gauss_codegen::program::{
-    BinaryFunction, Function, Input, Instruction, MOST_VARIABLES, Operand, OwnFunction, Program,
-};
+use gauss_codegen::program::{Function, Input, Instruction, MOST_VARIABLES, Operand, OwnFunction, Program};
 
-use super::backend::{Backend, Compiled, MOST_ARGUMENTS};
-use super::functions::{binary, is_fused, unary};
+use super::backend::{Backend, Compiled, CompiledLanes, MOST_ARGUMENTS};
+use super::functions::{BINARY, UNARY, binary, is_fused, unary};
+#[cfg(target_arch = "x86_64")]
+use super::lanes;
 use super::machine::{self, MachineCode};
 use crate::tables::Tables;
 
@@ -56,9 +56,24 @@ impl Backend for Cranelift {
         let code = self.machine_code(program, tables)?;
         Some(Box::new(code))
     }
+
+    #[cfg(target_arch = "x86_64")]
+    fn compile_lanes(&self, program: &Program, tables: &Tables) -> Option<Box<dyn CompiledLanes>> {
+        [8, 4].into_iter().find_map(|width| self.lanes(program, tables, width))
+    }
 }
 
 impl Cranelift {
+    /// The program for four rows (AVX2) or eight (AVX-512) at once; `None` for other counts and where the processor has
+    /// no such vectors. Registers are assigned by code of this crate, since Cranelift has vectors of two numbers.
+    #[cfg(target_arch = "x86_64")]
+    #[must_use]
+    pub fn lanes(&self, program: &Program, tables: &Tables, width: usize) -> Option<Box<dyn CompiledLanes>> {
+        program.verify().ok()?;
+        let module = || Some(JITModule::new(JITBuilder::with_isa(self.target(0)?, default_libcall_names())));
+        lanes::compiled(program, tables, width, module).map(|code| Box::new(code) as Box<dyn CompiledLanes>)
+    }
+
     /// `None` for processors that Cranelift does not know, or where executable memory is refused.
     fn machine_code(self, program: &Program, tables: &Tables) -> Option<MachineCode> {
         let mut builder = JITBuilder::with_isa(self.target(program.code.instructions.len())?, default_libcall_names());
@@ -93,10 +108,6 @@ impl Cranelift {
     }
 }
 
-const UNARY: [Function; 6] =
-    [Function::Sin, Function::Cos, Function::Exp, Function::Ln, Function::Signum, Function::Tanh];
-const BINARY: [BinaryFunction; 4] =
-    [BinaryFunction::Atan2, BinaryFunction::Min, BinaryFunction::Max, BinaryFunction::Powf];
 const SINES: &str = "sines_and_cosines";
 const TABLE: &str = "table";
 

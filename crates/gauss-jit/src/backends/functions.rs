@@ -11,6 +11,15 @@ pub fn is_fused() -> bool {
     return cfg!(target_arch = "aarch64");
 }
 
+/// Functions of one argument that code calls, by their numbers.
+#[cfg(feature = "cranelift")]
+pub const UNARY: [Function; 6] =
+    [Function::Sin, Function::Cos, Function::Exp, Function::Ln, Function::Signum, Function::Tanh];
+/// The same of two.
+#[cfg(feature = "cranelift")]
+pub const BINARY: [BinaryFunction; 4] =
+    [BinaryFunction::Atan2, BinaryFunction::Min, BinaryFunction::Max, BinaryFunction::Powf];
+
 /// Functions of one argument.
 pub fn unary(function: Function) -> extern "C" fn(f64) -> f64 {
     extern "C" fn sin(x: f64) -> f64 {

@@ -10,7 +10,7 @@ use cranelift_jit::JITModule;
 use cranelift_module::FuncId;
 use gauss_runtime::table::Table;
 
-use super::backend::{Compiled, MOST_ARGUMENTS};
+use super::backend::{Compiled, CompiledLanes, MOST_ARGUMENTS};
 use super::functions;
 use crate::tables::Tables;
 
@@ -108,4 +108,123 @@ pub unsafe extern "C" fn table(table: *const Table, orders: u64, x: f64, y: f64,
     // SAFETY: only code of this crate calls it, with the address of a table that `MachineCode` holds, which the call
     // borrows; nobody writes tables.
     unsafe { &*table }.at([first, second, third], [x, y, z])
+}
+
+/// A function of the inputs in lanes, the place for outputs, the room, the numbers that rows share, those of the code.
+#[cfg(target_arch = "x86_64")]
+type LanesFunction = unsafe extern "sysv64" fn(*const f64, *mut f64, *mut f64, *const f64, *const u64);
+
+/// What code in lanes reads and writes.
+#[cfg(target_arch = "x86_64")]
+pub struct Extent {
+    /// Numbers in a vector.
+    pub width: usize,
+    /// Numbers that rows share.
+    pub shared: usize,
+    /// Numbers of a row.
+    pub inputs: usize,
+    pub outputs: usize,
+    /// Vectors that are stored in between, and which of them has the exceptions, if there are any.
+    pub room: usize,
+    pub exceptions: Option<usize>,
+}
+
+/// A compiled program for several rows, with the memory that it is in.
+#[cfg(target_arch = "x86_64")]
+pub struct MachineLanes {
+    function: LanesFunction,
+    extent: Extent,
+    numbers: Vec<u64>,
+    _memory: Memory,
+    /// Tables whose addresses are in the code.
+    _tables: Tables,
+}
+
+/// The function of that name in a module that is finalised, if it could be.
+#[cfg(target_arch = "x86_64")]
+pub fn lanes(
+    module: JITModule,
+    id: Option<FuncId>,
+    (extent, numbers): (Extent, Vec<u64>),
+    tables: &Tables,
+) -> Option<MachineLanes> {
+    let memory = Memory(Some(module));
+    let address = memory.0.as_ref()?.get_finalized_function(id?);
+    // SAFETY: `Assembler` writes functions of five addresses, without a result, of this calling convention, whatever
+    // that of the host is.
+    let function = unsafe { mem::transmute::<*const u8, LanesFunction>(address) };
+    Some(MachineLanes { function, extent, numbers, _memory: memory, _tables: tables.clone() })
+}
+
+#[cfg(target_arch = "x86_64")]
+impl CompiledLanes for MachineLanes {
+    fn width(&self) -> usize {
+        self.extent.width
+    }
+
+    fn room(&self) -> usize {
+        self.extent.room * self.extent.width
+    }
+
+    fn run(&self, shared: &[f64], inputs: &[f64], outputs: &mut [f64], room: &mut [f64]) -> u32 {
+        let Extent { width, exceptions, .. } = self.extent;
+        let lengths = [self.extent.inputs * width, self.extent.outputs * width, self.room(), self.extent.shared];
+        let found = [inputs.len(), outputs.len(), room.len(), shared.len()];
+        assert!(lengths == found, "numbers of another program");
+        let (to, between) = (outputs.as_mut_ptr(), room.as_mut_ptr());
+        // SAFETY: the steps of the code read vectors of inputs that the arguments of the program have, components of
+        // its first one, and numbers that were written with it (`Program::verify`, which was asked when it was made);
+        // they write as many vectors of outputs and of the room as there are. All were compared above; the processor
+        // was asked for its instructions when the code was made. Its memory lives as long as `self`, as do the tables
+        // whose addresses are in it.
+        unsafe { (self.function)(inputs.as_ptr(), to, between, shared.as_ptr(), self.numbers.as_ptr()) };
+        let Some(first) = exceptions.map(|vector| vector * width) else { return 0 };
+        let rows = room[first..first + width].iter().enumerate();
+        rows.fold(0, |all, (k, number)| all | u32::from(number.to_bits() != 0) << k)
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+impl fmt::Debug for MachineLanes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("MachineLanes").field("width", &self.extent.width).finish_non_exhaustive()
+    }
+}
+
+/// Calls a function of one number lane by lane, for code in lanes: the arguments are the first vector of the room,
+/// which the results replace.
+///
+/// # Safety
+/// There are `width` numbers in the room; the function has one of the numbers of [`functions::UNARY`].
+#[cfg(target_arch = "x86_64")]
+pub unsafe extern "sysv64" fn unary_lanes(room: *mut f64, width: usize, function: usize, _: u64) {
+    // SAFETY: only code of this crate calls it, with its room, which nothing else reads or writes meanwhile.
+    let lanes = unsafe { slice::from_raw_parts_mut(room, width) };
+    let function = functions::unary(functions::UNARY[function]);
+    lanes.iter_mut().for_each(|x| *x = function(*x));
+}
+
+/// The same of two numbers, by the first two vectors of the room.
+///
+/// # Safety
+/// There are twice as many numbers; the function has one of the numbers of [`functions::BINARY`].
+#[cfg(target_arch = "x86_64")]
+pub unsafe extern "sysv64" fn binary_lanes(room: *mut f64, width: usize, function: usize, _: u64) {
+    // SAFETY: as of `unary_lanes`.
+    let lanes = unsafe { slice::from_raw_parts_mut(room, 2 * width) };
+    let (first, second) = lanes.split_at_mut(width);
+    let function = functions::binary(functions::BINARY[function]);
+    first.iter_mut().zip(second).for_each(|(x, y)| *x = function(*x, *y));
+}
+
+/// Calls a table lane by lane, as [`table`] does, by the first three vectors of the room.
+///
+/// # Safety
+/// There are three times as many numbers; the address is that of a table that lives over the call.
+#[cfg(target_arch = "x86_64")]
+pub unsafe extern "sysv64" fn table_lanes(room: *mut f64, width: usize, address: *const Table, orders: u64) {
+    for k in 0..width {
+        // SAFETY: as of `unary_lanes`, and of `table`.
+        unsafe { *room.add(k) = table(address, orders, *room.add(k), *room.add(width + k), *room.add(2 * width + k)) };
+    }
 }

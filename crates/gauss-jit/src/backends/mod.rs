@@ -5,11 +5,13 @@ mod backend;
 mod cranelift;
 mod functions;
 mod interpreter;
+#[cfg(all(feature = "cranelift", target_arch = "x86_64"))]
+mod lanes;
 #[cfg(feature = "cranelift")]
 mod machine;
 
 pub(crate) use backend::MOST_ARGUMENTS;
-pub use backend::{Backend, Compiled};
+pub use backend::{Backend, Compiled, CompiledLanes};
 #[cfg(feature = "cranelift")]
 pub use cranelift::{Cranelift, Effort};
 pub use interpreter::Interpreter;

@@ -86,23 +86,32 @@ fn plan(model: &Model, id: Id, frames: &[&'static str], joints: &[&'static str])
     Some(Plan::Program(programs, inputs.collect::<Option<Vec<_>>>()?))
 }
 
-/// The arguments of one row: time, and a list for each slot.
-struct Row<'a> {
-    t: f64,
+/// The arguments of some rows: times, and a list for each slot, one row behind the other or one for all.
+struct Arguments<'a> {
+    rows: usize,
+    t: &'a [f64],
     lists: [&'a [f64]; 4],
+    /// Count of the numbers of a row of each slot.
+    counts: [usize; 4],
 }
 
-impl<'a> Row<'a> {
+impl<'a> Arguments<'a> {
     fn list(&self, slot: Slot) -> &'a [f64] {
         self.lists[slot as usize]
     }
 
+    /// The numbers of a slot in a row.
+    fn row(&self, slot: Slot, row: usize) -> &'a [f64] {
+        let (list, count) = (self.list(slot), self.counts[slot as usize]);
+        if list.len() == count { list } else { &list[row * count..][..count] }
+    }
+
     /// The lists of a program's arguments, and empty ones behind them.
-    fn arguments<'b>(&'b self, inputs: &[Input]) -> [&'b [f64]; MOST_INPUTS] {
+    fn of_program(&self, inputs: &[Input]) -> [&'a [f64]; MOST_INPUTS] {
         let mut lists: [&[f64]; MOST_INPUTS] = [&[]; MOST_INPUTS];
         for (list, input) in lists.iter_mut().zip(inputs) {
             *list = match input {
-                Input::Time => std::slice::from_ref(&self.t),
+                Input::Time => self.t,
                 Input::In(slot) => self.list(*slot),
             };
         }
@@ -118,118 +127,175 @@ fn program_of(programs: &[String], frame: usize) -> &str {
     &programs[frame.min(programs.len() - 1)]
 }
 
-/// The results of a row, one after another.
+/// The results of some rows by a program, one after another.
+fn called(kernel: &Kernel, program: &str, rows: usize, arguments: &[&[f64]]) -> Result<Vec<f64>, CallError> {
+    let method = kernel.method(program)?;
+    let mut results = vec![0.0; rows * method.outputs()];
+    method.call_rows(rows, arguments, &mut results)?;
+    Ok(results)
+}
+
+/// The results of some rows, at least one, one row behind the other.
 fn compute(
     kernel: &Kernel,
     (plan, sizes): (&Plan, &Sizes),
-    (row, frame): (&Row<'_>, usize),
+    (own, frame): (&Arguments<'_>, usize),
     results: &mut [f64],
 ) -> Result<(), CallError> {
-    let (t, q, z) = (&[row.t][..], row.list(Slot::Q), row.list(Slot::Z));
-    let (x, u) = (row.list(Slot::X), row.list(Slot::U));
+    let (rows, t, q, z) = (own.rows, own.t, own.list(Slot::Q), own.list(Slot::Z));
+    let u = own.list(Slot::U);
+    let count = results.len() / rows;
     match plan {
         Plan::Program(programs, inputs) => {
-            kernel.method(program_of(programs, frame))?.call(&row.arguments(inputs)[..inputs.len()], results)
+            let method = kernel.method(program_of(programs, frame))?;
+            method.call_rows(rows, &own.of_program(inputs)[..inputs.len()], results)?;
         }
-        Plan::Pose(programs) => {
-            let mut own = [0.0; 12];
-            kernel.method(&programs[frame])?.call(&[t, q], &mut own)?;
-            for (i, four) in results.chunks_exact_mut(4).enumerate() {
-                four.copy_from_slice(&match i {
-                    3 => [0.0, 0.0, 0.0, 1.0],
-                    i => [own[3 + 3 * i], own[4 + 3 * i], own[5 + 3 * i], own[i]],
-                });
-            }
-            Ok(())
+        Plan::Pose(programs) => poses(kernel, program_of(programs, frame), own, results)?,
+        Plan::Nonlinear => {
+            let at_rest = vec![0.0; sizes.speeds];
+            kernel.method("gauss_residual")?.call_rows(rows, &[t, q, z, &at_rest, u], results)?;
         }
-        Plan::Nonlinear => kernel.method("gauss_residual")?.call(&[t, q, z, &vec![0.0; sizes.speeds], u], results),
         Plan::Reaction => {
-            let mut acceleration = vec![0.0; sizes.speeds];
-            kernel.method("acceleration")?.call(&[t, q, z, u], &mut acceleration)?;
-            let all = kernel.call("reactions_at", &[t, q, z, &acceleration, u])?;
-            results.copy_from_slice(&all[6 * frame..6 * frame + 6]);
-            Ok(())
+            let acceleration = called(kernel, "acceleration", rows, &[t, q, z, u])?;
+            let all = called(kernel, "reactions_at", rows, &[t, q, z, &acceleration, u])?;
+            for (six, all) in results.chunks_exact_mut(6).zip(all.chunks_exact(all.len() / rows)) {
+                six.copy_from_slice(&all[6 * frame..6 * frame + 6]);
+            }
         }
         Plan::Energy => {
-            let mut potential = [0.0];
-            kernel.method("kinetic_energy")?.call(&[t, q, z], results)?;
-            kernel.method("potential_energy")?.call(&[t, q], &mut potential)?;
-            results[0] += potential[0];
-            Ok(())
+            kernel.method("kinetic_energy")?.call_rows(rows, &[t, q, z], results)?;
+            let potential = called(kernel, "potential_energy", rows, &[t, q])?;
+            results.iter_mut().zip(potential).for_each(|(energy, potential)| *energy += potential);
         }
-        Plan::CenterJacobian => center_jacobian(kernel, &[t, q], results),
-        Plan::Rates(velocity) => {
-            let mut own = vec![0.0; sizes.increment];
-            let arguments = [t, q, z, u];
-            let count = if velocity == "kinematics" { 3 } else { 4 };
-            kernel.method(velocity)?.call(&arguments[..count], &mut own)?;
-            let (rates, acceleration) = results.split_at_mut(sizes.configuration);
-            kernel.component_rates(q, &own, rates)?;
-            kernel.method("acceleration")?.call(&arguments, acceleration)
+        Plan::CenterJacobian => center_jacobians(kernel, own, results)?,
+        Plan::Rates(velocity) => rates(kernel, (velocity, sizes), own, results)?,
+        Plan::Regular => results.fill(1.0),
+        Plan::Retract | Plan::Difference | Plan::Tangent => {
+            for (row, results) in results.chunks_exact_mut(count.max(1)).enumerate() {
+                let (q, x) = (own.row(Slot::Q, row), own.row(Slot::X, row));
+                match plan {
+                    Plan::Retract => kernel.retract(q, x, results)?,
+                    Plan::Difference => kernel.difference(q, x, results)?,
+                    _ => kernel.tangent(q, x, results)?,
+                }
+            }
         }
-        Plan::Regular => {
-            results[0] = 1.0;
-            Ok(())
-        }
-        Plan::Retract => kernel.retract(q, x, results),
-        Plan::Difference => kernel.difference(q, x, results),
-        Plan::Tangent => kernel.tangent(q, x, results),
     }
-}
-
-fn center_jacobian(kernel: &Kernel, arguments: &[&[f64]; 2], results: &mut [f64]) -> Result<(), CallError> {
-    let mut mass = [0.0];
-    kernel.method("total_mass")?.call(arguments, &mut mass)?;
-    let matrix = kernel.call("centroidal_matrix", arguments)?;
-    results.iter_mut().zip(matrix).for_each(|(number, momentum)| *number = momentum / mass[0]);
     Ok(())
 }
 
+/// Homogeneous matrices, of programs that give the origin and the rotation.
+fn poses(kernel: &Kernel, program: &str, own: &Arguments<'_>, results: &mut [f64]) -> Result<(), CallError> {
+    let found = called(kernel, program, own.rows, &[own.t, own.list(Slot::Q)])?;
+    for (pose, own) in results.chunks_exact_mut(16).zip(found.chunks_exact(12)) {
+        for (i, four) in pose.chunks_exact_mut(4).enumerate() {
+            four.copy_from_slice(&match i {
+                3 => [0.0, 0.0, 0.0, 1.0],
+                i => [own[3 + 3 * i], own[4 + 3 * i], own[5 + 3 * i], own[i]],
+            });
+        }
+    }
+    Ok(())
+}
+
+fn center_jacobians(kernel: &Kernel, own: &Arguments<'_>, results: &mut [f64]) -> Result<(), CallError> {
+    let arguments = [own.t, own.list(Slot::Q)];
+    let masses = called(kernel, "total_mass", own.rows, &arguments)?;
+    let matrices = called(kernel, "centroidal_matrix", own.rows, &arguments)?;
+    let (count, of_matrix) = (results.len() / own.rows, matrices.len() / own.rows);
+    for (row, mass) in masses.iter().enumerate() {
+        let matrix = &matrices[row * of_matrix..];
+        let jacobian = results[row * count..][..count].iter_mut();
+        jacobian.zip(matrix).for_each(|(number, momentum)| *number = momentum / mass);
+    }
+    Ok(())
+}
+
+/// Rates of components from velocities that a program gives, then accelerations.
+fn rates(
+    kernel: &Kernel,
+    (velocity, sizes): (&str, &Sizes),
+    own: &Arguments<'_>,
+    results: &mut [f64],
+) -> Result<(), CallError> {
+    let arguments = [own.t, own.list(Slot::Q), own.list(Slot::Z), own.list(Slot::U)];
+    let taken = if velocity == "kinematics" { 3 } else { 4 };
+    let velocities = called(kernel, velocity, own.rows, &arguments[..taken])?;
+    let accelerations = called(kernel, "acceleration", own.rows, &arguments)?;
+    let count = results.len() / own.rows;
+    for row in 0..own.rows {
+        let (rates, acceleration) = results[row * count..][..count].split_at_mut(sizes.configuration);
+        let velocity = &velocities[row * sizes.increment..][..sizes.increment];
+        kernel.component_rates(own.row(Slot::Q, row), velocity, rates)?;
+        acceleration.copy_from_slice(&accelerations[row * sizes.speeds..][..sizes.speeds]);
+    }
+    Ok(())
+}
+
+/// So many numbers of rows stay in the nearest caches, and no more rows than these are gathered at a time: both are
+/// multiples of what vectors take.
+const NEAR: usize = 8192;
+const MOST_ROWS: usize = 64;
+const LEAST_ROWS: usize = 8;
+
 impl Plans {
-    /// Computes rows of a method. What a program refuses, which sizes that were compared before exclude, gives NaN.
+    /// Computes rows of a method, many at a time. What a program refuses, which sizes that were compared before exclude,
+    /// gives NaN.
     ///
     /// # Safety
     /// All arrays that the method names have these rows, each of the sizes of the scene.
     #[allow(unsafe_code)]
     pub unsafe fn run(&self, (kernel, sizes): (&Kernel, &Sizes), id: Id, work: &Work, rows: Range<usize>) {
         let (Some(plan), spec) = (&self.0[id as usize], &SPECS[id as usize]) else { return };
-        let counts = spec.results.iter().map(|result| result.axes.iter().map(|axis| sizes.get(*axis)).product());
-        let counts: Vec<usize> = counts.collect();
-        let mut results = vec![0.0; counts.iter().sum()];
-        let own = spec.arguments.iter().map(|own| (own.slot as usize, sizes.get(own.size)));
-        let mut own: Vec<_> = own.map(|(slot, size)| (slot, vec![0.0; size])).collect();
-        // It is found once for all rows.
-        let program = match plan {
-            Plan::Program(programs, inputs) => kernel.method(program_of(programs, work.frame)).ok().zip(Some(inputs)),
-            _ => None,
-        };
-        for row in rows {
-            let mut lists: [&[f64]; 4] = [&[]; 4];
-            for (slot, numbers) in &mut own {
-                // An argument without numbers may be no array at all.
-                if !numbers.is_empty() {
-                    let size = numbers.len();
-                    // SAFETY: of this function.
-                    unsafe { work.arguments[*slot].copy(row..row + 1, size, numbers) };
-                }
-                lists[*slot] = numbers;
+        let of_results = spec.results.iter().map(|result| result.axes.iter().map(|axis| sizes.get(*axis)).product());
+        let of_results: Vec<usize> = of_results.collect();
+        let outputs: usize = of_results.iter().sum();
+        let mut counts = [0; 4];
+        spec.arguments.iter().for_each(|own| counts[own.slot as usize] = sizes.get(own.size));
+        let numbers = outputs + counts.iter().sum::<usize>();
+        let block = (NEAR / numbers.max(1)).next_multiple_of(LEAST_ROWS).clamp(LEAST_ROWS, MOST_ROWS).min(rows.len());
+        let mut results = vec![0.0; outputs * block];
+        // An argument without numbers may be no array at all, and what is one for all is there once.
+        let rows_of = |count: usize, stride: usize| {
+            if count == 0 {
+                0
+            } else if stride == 0 {
+                1
+            } else {
+                block
             }
+        };
+        let mut own: [Vec<f64>; 4] =
+            std::array::from_fn(|slot| vec![0.0; counts[slot] * rows_of(counts[slot], work.arguments[slot].stride())]);
+        let mut times = vec![0.0; rows_of(1, work.t.stride())];
+        for start in rows.clone().step_by(block.max(1)) {
+            let count = block.min(rows.end - start);
+            for (slot, numbers) in own.iter_mut().enumerate().filter(|(_, numbers)| !numbers.is_empty()) {
+                let copied = if work.arguments[slot].stride() == 0 { 1 } else { count };
+                // SAFETY: of this function.
+                unsafe { work.arguments[slot].copy(start..start + copied, counts[slot], numbers) };
+            }
+            let timed = times.len().min(count);
             // SAFETY: there is a time for each row, or one for all.
-            let t = unsafe { work.t.get(row, 0) };
-            let one = Row { t, lists };
-            let computed = match &program {
-                Some((program, inputs)) => program.call(&one.arguments(inputs)[..inputs.len()], &mut results),
-                None => compute(kernel, (plan, sizes), (&one, work.frame), &mut results),
+            unsafe { work.t.copy(start..start + timed, 1, &mut times) };
+            let filled = |slot: usize| {
+                let own = &own[slot];
+                &own[..own.len().min(counts[slot] * count)]
             };
-            if computed.is_err() {
-                debug_assert!(false, "{}: {computed:?}", spec.name);
+            let lists = std::array::from_fn(filled);
+            let arguments = Arguments { rows: count, t: &times[..timed], lists, counts };
+            let results = &mut results[..count * outputs];
+            if let Err(error) = compute(kernel, (plan, sizes), (&arguments, work.frame), results) {
+                debug_assert!(false, "{}: {error}", spec.name);
                 results.fill(f64::NAN);
             }
             let mut next = results.iter();
-            for (target, count) in work.results.iter().zip(&counts) {
-                for (i, number) in next.by_ref().take(*count).enumerate() {
-                    // SAFETY: of this function.
-                    unsafe { target.set(row, i, *number) };
+            for row in start..start + count {
+                for (target, count) in work.results.iter().zip(&of_results) {
+                    for (i, number) in next.by_ref().take(*count).enumerate() {
+                        // SAFETY: of this function.
+                        unsafe { target.set(row, i, *number) };
+                    }
                 }
             }
         }
