@@ -108,15 +108,15 @@ where
     let place = std::cell::RefCell::new(vec![0.0; ROWS * N]);
     let function: fn(&K, &Batch, &mut [f64]) = compiled_ahead::<K, N>;
     let ways = [
-        at_run_time::<N>("compiled at run time, row by row", kernel, one_by_one),
-        at_run_time::<N>(&format!("compiled at run time, {width} lanes"), kernel, in_lanes),
+        at_run_time::<N>(&format!("at run time, {width} lanes"), kernel, in_lanes),
+        at_run_time::<N>("at run time, row by row", kernel, one_by_one),
         Way::calling("compiled ahead, `wide::f64x8`", vec![batch::<N>()], function, move |function, batch| {
             function(black_box(&ahead), batch, black_box(&mut place.borrow_mut()));
         }),
     ];
     let times = times(&ways, 300, 1e-3);
     println!(
-        "\n{name}; code in lanes made in {made:.2} ms\n\n| | ns a row | million rows/s | of row by row |\n|---|---|---|---|"
+        "\n{name}; code in lanes made in {made:.2} ms\n\n| | ns a row | million rows/s | lanes / this |\n|---|---|---|---|"
     );
     for ((way, time), ratio) in ways.iter().zip(&times.absolute).zip(&times.ratios) {
         let rows = ROWS as f64;

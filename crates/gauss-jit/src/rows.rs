@@ -16,15 +16,15 @@ impl Method<'_> {
         self.derived.lanes(self.place).map_or(1, CompiledLanes::width)
     }
 
-    /// Calls it for many rows: each list has the numbers of its argument for all rows, one row behind the other, or once
-    /// for all. Writes the results row after row, with the bits that [`call`](Self::call) gives each.
+    /// Calls it for many rows: each list has the numbers of its argument for all rows, one row behind the other, or
+    /// those of one for all. Writes the results row after row, with the bits that [`call`](Self::call) gives each.
     ///
     /// # Errors
     /// Lists of other lengths.
     pub fn call_rows(&self, rows: usize, arguments: &[&[f64]], results: &mut [f64]) -> Result<(), CallError> {
         self.check(rows, arguments, results)?;
         let lanes = if rows < FEWEST { None } else { self.derived.lanes(self.place) };
-        let mut batch = Rows { method: self, rows, arguments, results };
+        let mut batch = RowBatch { method: self, rows, arguments, results };
         match lanes {
             Some(lanes) if lanes.width() == 8 => batch.in_lanes::<8>(lanes),
             Some(lanes) if lanes.width() == 4 => batch.in_lanes::<4>(lanes),
@@ -35,14 +35,14 @@ impl Method<'_> {
 }
 
 /// Rows of numbers whose lengths were compared.
-struct Rows<'a> {
+struct RowBatch<'a> {
     method: &'a Method<'a>,
     rows: usize,
     arguments: &'a [&'a [f64]],
     results: &'a mut [f64],
 }
 
-impl<'a> Rows<'a> {
+impl<'a> RowBatch<'a> {
     /// The numbers of an argument in a row.
     fn row(&self, argument: usize, row: usize) -> &'a [f64] {
         let (list, count) = (self.arguments[argument], self.method.arguments()[argument].components.len());

@@ -29,6 +29,11 @@ impl<'a> Rows<'a> {
         let first = if self.is_shared { 0 } else { row * self.size };
         &self.numbers[first..first + self.size]
     }
+
+    /// The numbers of some rows, or those for all.
+    fn rows(&self, rows: Range<usize>) -> &'a [f64] {
+        if self.is_shared { self.numbers } else { &self.numbers[rows.start * self.size..rows.end * self.size] }
+    }
 }
 
 /// Why a row is not computed.
@@ -92,16 +97,14 @@ impl Programs {
 impl Call<'_> {
     /// Some rows.
     fn rows(&self, kernel: &gauss_jit::Kernel, rows: Range<usize>, results: &mut [f64]) -> Result<(), Fault> {
-        let mut lists: Vec<&[f64]> = vec![&[]; self.arguments.len()];
-        let shared = kernel.method(self.method)?;
+        if self.own.is_empty() {
+            let lists: Vec<&[f64]> = self.arguments.iter().map(|argument| argument.rows(rows.clone())).collect();
+            return Ok(kernel.method(self.method)?.call_rows(rows.len(), &lists, results)?);
+        }
         for (k, row) in rows.enumerate() {
-            lists.iter_mut().zip(self.arguments).for_each(|(list, argument)| *list = argument.row(row));
+            let lists: Vec<&[f64]> = self.arguments.iter().map(|argument| argument.row(row)).collect();
             let results = &mut results[k * self.outputs..][..self.outputs];
-            if self.own.is_empty() {
-                shared.call(&lists, results)?;
-            } else {
-                self.programs.of_row(self.own, Some(row))?.method(self.method)?.call(&lists, results)?;
-            }
+            self.programs.of_row(self.own, Some(row))?.method(self.method)?.call(&lists, results)?;
         }
         Ok(())
     }

@@ -119,6 +119,42 @@ def test_batches_are_their_rows_to_the_bit(arm):
     assert both[1].tobytes() == arm.acceleration(q, [0, 0], [1, 2]).tobytes()
 
 
+def same(found, expected):
+    """The same bits, but for the sign and the digits of what is no number."""
+    found, expected = (np.where(np.isnan(array), np.nan, array) for array in (found, expected))
+    return found.tobytes() == expected.tobytes()
+
+
+@pytest.mark.parametrize("count", [1, 3, 8, 9, 64, 77, 700])
+def test_rows_in_lanes_have_the_bits_of_rows_alone(model, arm, count):
+    """Whole vectors, what is left behind them, rows that vectors leave out: angles at quarter turns, large, no numbers."""
+    random = np.random.default_rng(count)
+    for kernel in (model(m=2, l=0.5, g=9.81), arm):
+        size = len(kernel.coordinate_names)
+        q, z = random.uniform(-4, 4, (2, count, size))
+        special = [np.pi / 2, -1.5 * np.pi, 2e5, np.nan, np.inf, -0.0]
+        rows = range(1, min(count, 2 * len(special)), 2)
+        for row, value in zip(rows, special):
+            q[row, row % size] = value
+        for name, given in (
+            ("acceleration", (q, z)), ("rates", (q, z)), ("energy", (q, z)), ("mass_matrix", (q,)),
+            ("inverse_dynamics", (q, z, z)), ("retract", (q, z)), ("difference", (q, z)), ("nonlinear_effects", (q, z)),
+            *([("center_jacobian", (q,)), ("linearize", (q, z))] if kernel is arm else []),
+        ):
+            input = {"input": [0.25] * len(kernel.input_names)} if name in INPUTS and kernel.input_names else {}
+            method = getattr(kernel, name)
+            found, alone = method(*given, **input), [method(*(own[k] for own in given), **input) for k in range(count)]
+            parts = (found, np.stack(alone)) if isinstance(found, np.ndarray) else None
+            for found, expected in [parts] if parts else zip(found, map(np.stack, zip(*alone))):
+                assert same(found, expected), (name, count)
+        # One configuration for all rows, and results over the speeds.
+        expected = np.stack([kernel.kinetic_energy(q[0], own) for own in z])
+        assert same(kernel.kinetic_energy(q[0], z), expected)
+
+
+INPUTS = ["acceleration", "rates", "inverse_dynamics", "nonlinear_effects", "linearize"]
+
+
 def twisted(array):
     """The same numbers in memory that is neither in order nor aligned."""
     memory = np.zeros(array.size * 2 * 8 + 1, np.uint8)[1:]

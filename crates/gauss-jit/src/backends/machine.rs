@@ -114,7 +114,7 @@ pub unsafe extern "C" fn table(table: *const Table, orders: u64, x: f64, y: f64,
 #[cfg(target_arch = "x86_64")]
 type LanesFunction = unsafe extern "sysv64" fn(*const f64, *mut f64, *mut f64, *const f64, *const u64);
 
-/// What code in lanes reads and writes.
+/// Counts of the numbers that code in lanes reads and writes.
 #[cfg(target_arch = "x86_64")]
 pub struct Extent {
     /// Numbers in a vector.

@@ -239,8 +239,8 @@ const MOST_ROWS: usize = 64;
 const LEAST_ROWS: usize = 8;
 
 impl Plans {
-    /// Computes rows of a method, many at a time. What a program refuses, which sizes that were compared before exclude,
-    /// gives NaN.
+    /// Computes rows of a method, many at a time. What a program refuses, which sizes that were compared before
+    /// exclude, gives NaN.
     ///
     /// # Safety
     /// All arrays that the method names have these rows, each of the sizes of the scene.

@@ -39,18 +39,18 @@ pub enum Base {
 
 /// A place in memory: a vector, or one number for all places of one.
 #[derive(Clone, Copy, Debug)]
-pub struct Memory {
+pub struct Location {
     pub base: Base,
     /// In bytes.
     pub offset: i32,
     pub is_single: bool,
 }
 
-/// What an instruction reads last.
+/// The last operand of an instruction.
 #[derive(Clone, Copy, Debug)]
 pub enum Source {
     Register(u8),
-    Memory(Memory),
+    Memory(Location),
 }
 
 /// An instruction: its map of opcodes (1: `0F`, 2: `0F 38`), its opcode, and whether VEX says W.
@@ -124,13 +124,13 @@ impl Assembler {
 
     /// `target = first · source`, whatever the operation is; of operations of one operand `first` is 0.
     pub fn vector(&mut self, opcode: Opcode, target: u8, first: u8, source: Source) {
-        let is_repeated = matches!(source, Source::Memory(Memory { is_single: true, .. }));
+        let is_repeated = matches!(source, Source::Memory(Location { is_single: true, .. }));
         self.prefix(opcode, [target, first], source, is_repeated && self.width == Width::Eight);
         self.place(target, source);
     }
 
     /// Loads a register.
-    pub fn load(&mut self, target: u8, memory: Memory) {
+    pub fn load(&mut self, target: u8, memory: Location) {
         if memory.is_single {
             self.prefix(Opcode::REPEAT, [target, 0], Source::Memory(memory), false);
             self.place(target, Source::Memory(memory));
@@ -140,7 +140,7 @@ impl Assembler {
     }
 
     /// Stores a register.
-    pub fn store(&mut self, register: u8, memory: Memory) {
+    pub fn store(&mut self, register: u8, memory: Location) {
         self.vector(Opcode::STORE, register, 0, Source::Memory(memory));
     }
 
@@ -192,7 +192,7 @@ impl Assembler {
         let register = (register & 7) << 3;
         match source {
             Source::Register(last) => self.bytes.push(0b1100_0000 | register | last & 7),
-            Source::Memory(Memory { base, offset, .. }) => {
+            Source::Memory(Location { base, offset, .. }) => {
                 self.bytes.push(0b1000_0000 | register | base as u8 & 7);
                 self.bytes.extend(offset.to_le_bytes());
             }

@@ -3,7 +3,7 @@
 use gauss_codegen::program::{Function, Input, Instruction, Operand, Program};
 
 use super::sines::{SIGN, sine_and_cosine};
-use super::steps::{Callee, Operation, Place, Steps};
+use super::steps::{Callee, LaneOperand, Operation, Steps};
 
 /// The steps of a program. All rows share the numbers of its first argument.
 pub fn lowered(program: &Program) -> Steps {
@@ -25,16 +25,16 @@ struct Lowering<'a> {
     /// The place of the first number of each argument among those of a row.
     first_inputs: Vec<usize>,
     steps: Steps,
-    /// Of each instruction its result, of pairs both.
-    results: Vec<[Place; 2]>,
+    /// Results of instructions so far, of pairs both.
+    results: Vec<[LaneOperand; 2]>,
 }
 
 impl Lowering<'_> {
-    fn place(&mut self, operand: Operand) -> Place {
+    fn place(&mut self, operand: Operand) -> LaneOperand {
         match operand {
-            Operand::Input(Input::Component { argument: 0, component }) => Place::Constant(component),
+            Operand::Input(Input::Component { argument: 0, component }) => LaneOperand::Constant(component),
             Operand::Input(Input::Component { argument, component }) => {
-                Place::Input(self.first_inputs[argument] + component)
+                LaneOperand::Input(self.first_inputs[argument] + component)
             }
             Operand::Input(Input::Number(number)) => self.steps.number(self.program.numbers[number]),
             Operand::Number(value) => self.steps.number(value.to_f64()),
@@ -43,8 +43,8 @@ impl Lowering<'_> {
         }
     }
 
-    fn result(&mut self, instruction: &Instruction) -> [Place; 2] {
-        let operands: Vec<Place> = match *instruction {
+    fn result(&mut self, instruction: &Instruction) -> [LaneOperand; 2] {
+        let operands: Vec<LaneOperand> = match *instruction {
             // Tables take three numbers, whatever they depend on.
             Instruction::Own(_, operands) => operands.iter().map(|operand| self.place(*operand)).collect(),
             _ => instruction.operands().map(|operand| self.place(operand)).collect(),

@@ -1,8 +1,8 @@
 //! Steps → machine code: registers are assigned in one pass. A register that is wanted is taken from the vector that is
 //! read latest; code without branches says when that is.
 
-use super::assembler::{Assembler, Base, Memory, Opcode, Order, Source, Width};
-use super::steps::{Callee, Operation, Place, Step, Steps};
+use super::assembler::{Assembler, Base, Location, Opcode, Order, Source, Width};
+use super::steps::{Callee, LaneOperand, Operation, Step, Steps};
 
 /// Vectors at the beginning of the room: arguments of functions, the first of which the result replaces, and the
 /// exceptions.
@@ -12,7 +12,7 @@ pub const EXCEPTIONS: usize = 3;
 
 /// Machine code with the vectors that it stores in between.
 #[derive(Debug)]
-pub struct Assembled {
+pub struct LaneCode {
     pub bytes: Vec<u8>,
     pub room: usize,
 }
@@ -21,8 +21,8 @@ pub struct Assembled {
 pub type Address = (u64, [u64; 2]);
 
 /// Machine code of steps; `callee` has the addresses of functions. None where it would be larger than addresses are.
-pub fn assembled(steps: &Steps, width: Width, callee: impl Fn(Callee) -> Option<Address>) -> Option<Assembled> {
-    let mut writer = Writer::new(steps, width);
+pub fn assembled(steps: &Steps, width: Width, callee: impl Fn(Callee) -> Option<Address>) -> Option<LaneCode> {
+    let mut writer = Allocator::new(steps, width);
     for (k, step) in steps.steps.iter().enumerate() {
         match step.operation {
             Operation::Call(function) => writer.call(k, step, callee(function)?)?,
@@ -38,14 +38,14 @@ pub fn assembled(steps: &Steps, width: Width, callee: impl Fn(Callee) -> Option<
     if let Some(exceptions) = steps.exceptions {
         writer.output(exceptions, Base::Room, EXCEPTIONS)?;
     }
-    Some(Assembled { bytes: writer.assembler.finish(), room: writer.room })
+    Some(LaneCode { bytes: writer.assembler.finish(), room: writer.room })
 }
 
-struct Writer {
+struct Allocator {
     assembler: Assembler,
     /// Counts of steps, inputs and constants, by which vectors have numbers.
     counts: [usize; 3],
-    /// Of each vector the steps that read it, the next one last.
+    /// Steps that read each vector, the next one last.
     uses: Vec<Vec<usize>>,
     /// The register that a vector is in.
     register: Vec<Option<u8>>,
@@ -59,15 +59,15 @@ struct Writer {
     room: usize,
 }
 
-impl Writer {
+impl Allocator {
     fn new(steps: &Steps, width: Width) -> Self {
         let read = steps.steps.iter().flat_map(Step::places).chain(&steps.outputs).chain(&steps.exceptions);
         let mut counts = [steps.steps.len(), 0, 0];
         for place in read {
             match *place {
-                Place::Input(k) => counts[1] = counts[1].max(k + 1),
-                Place::Constant(k) => counts[2] = counts[2].max(k + 1),
-                Place::Value(_) | Place::Number(_) => {}
+                LaneOperand::Input(k) => counts[1] = counts[1].max(k + 1),
+                LaneOperand::Constant(k) => counts[2] = counts[2].max(k + 1),
+                LaneOperand::Value(_) | LaneOperand::Number(_) => {}
             }
         }
         let all = counts.iter().sum::<usize>() + steps.numbers.len();
@@ -93,33 +93,33 @@ impl Writer {
     }
 
     /// The number of a vector.
-    fn vector(&self, place: Place) -> usize {
+    fn vector(&self, place: LaneOperand) -> usize {
         let [steps, inputs, constants] = self.counts;
         match place {
-            Place::Value(k) => k,
-            Place::Input(k) => steps + k,
-            Place::Constant(k) => steps + inputs + k,
-            Place::Number(k) => steps + inputs + constants + k,
+            LaneOperand::Value(k) => k,
+            LaneOperand::Input(k) => steps + k,
+            LaneOperand::Constant(k) => steps + inputs + k,
+            LaneOperand::Number(k) => steps + inputs + constants + k,
         }
     }
 
-    fn memory(&self, base: Base, place: usize) -> Option<Memory> {
+    fn memory(&self, base: Base, place: usize) -> Option<Location> {
         let is_single = matches!(base, Base::Constants | Base::Numbers);
         let size = if is_single { 8 } else { 8 * self.assembler.width.count() };
-        Some(Memory { base, offset: i32::try_from(place.checked_mul(size)?).ok()?, is_single })
+        Some(Location { base, offset: i32::try_from(place.checked_mul(size)?).ok()?, is_single })
     }
 
     /// The place in memory that a vector can be read from: a result is there if it was stored.
-    fn home(&self, place: Place) -> Option<Memory> {
+    fn home(&self, place: LaneOperand) -> Option<Location> {
         match place {
-            Place::Value(k) => self.memory(Base::Room, self.stored[k]?),
-            Place::Input(k) => self.memory(Base::Inputs, k),
-            Place::Constant(k) => self.memory(Base::Constants, k),
-            Place::Number(k) => self.memory(Base::Numbers, k),
+            LaneOperand::Value(k) => self.memory(Base::Room, self.stored[k]?),
+            LaneOperand::Input(k) => self.memory(Base::Inputs, k),
+            LaneOperand::Constant(k) => self.memory(Base::Constants, k),
+            LaneOperand::Number(k) => self.memory(Base::Numbers, k),
         }
     }
 
-    fn held(&self, place: Place) -> Option<u8> {
+    fn held(&self, place: LaneOperand) -> Option<u8> {
         self.register[self.vector(place)]
     }
 
@@ -157,7 +157,7 @@ impl Writer {
     }
 
     /// The register of a vector, which is loaded where it is in none.
-    fn loaded(&mut self, place: Place, kept: &[u8]) -> Option<u8> {
+    fn loaded(&mut self, place: LaneOperand, kept: &[u8]) -> Option<u8> {
         if let Some(register) = self.held(place) {
             return Some(register);
         }
@@ -170,7 +170,7 @@ impl Writer {
     }
 
     /// A vector as an instruction reads it last: AVX2 repeats no number while it computes.
-    fn source(&mut self, place: Place, kept: &[u8]) -> Option<Source> {
+    fn source(&mut self, place: LaneOperand, kept: &[u8]) -> Option<Source> {
         if let Some(register) = self.held(place) {
             return Some(Source::Register(register));
         }
@@ -182,7 +182,7 @@ impl Writer {
     }
 
     /// Notes that a step has read its vectors: what is read no more leaves its register and its place.
-    fn read(&mut self, places: &[Place]) {
+    fn read(&mut self, places: &[LaneOperand]) {
         self.free.append(&mut self.released);
         for place in places {
             let vector = self.vector(*place);
@@ -191,7 +191,7 @@ impl Writer {
                 if let Some(register) = self.register[vector].take() {
                     self.holders[usize::from(register)] = None;
                 }
-                if let Place::Value(k) = *place {
+                if let LaneOperand::Value(k) = *place {
                     self.released.extend(self.stored[k].take());
                 }
             }
@@ -265,7 +265,7 @@ impl Writer {
     fn fused(&mut self, k: usize, step: &Step) -> Option<()> {
         let &[a, b, c] = step.places() else { return None };
         let places = [a, b, c];
-        let is_last = |writer: &Self, place: Place| {
+        let is_last = |writer: &Self, place: LaneOperand| {
             let uses = &writer.uses[writer.vector(place)];
             let of_step = places.iter().filter(|other| **other == place).count();
             uses.len() == of_step
@@ -327,7 +327,7 @@ impl Writer {
         Some(())
     }
 
-    fn output(&mut self, place: Place, base: Base, k: usize) -> Option<()> {
+    fn output(&mut self, place: LaneOperand, base: Base, k: usize) -> Option<()> {
         let register = self.loaded(place, &[])?;
         let memory = self.memory(base, k)?;
         self.assembler.store(register, memory);

@@ -4,7 +4,7 @@
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
-use super::steps::{Operation, Place, Steps};
+use super::steps::{LaneOperand, Operation, Steps};
 
 /// The bit of the sign.
 pub const SIGN: u64 = 1 << 63;
@@ -44,8 +44,8 @@ const COSINE: [f64; 6] = [
 ];
 
 /// Steps for the sine and the cosine of an angle.
-pub fn sine_and_cosine(steps: &mut Steps, x: Place) -> [Place; 2] {
-    let mut writer = Writer { steps };
+pub fn sine_and_cosine(steps: &mut Steps, x: LaneOperand) -> [LaneOperand; 2] {
+    let mut writer = SineWriter { steps };
     let w = &mut writer;
     let (turns, shifter, parts) = (w.number(FRAC_2_PI), w.number(SHIFTER), PARTS.map(|part| w.steps.bits(part)));
     let shifted = w.sum(x, turns, shifter);
@@ -66,25 +66,25 @@ pub fn sine_and_cosine(steps: &mut Steps, x: Place) -> [Place; 2] {
     w.in_quadrant(shifted, of_remainder)
 }
 
-struct Writer<'a> {
+struct SineWriter<'a> {
     steps: &'a mut Steps,
 }
 
-impl Writer<'_> {
-    fn number(&mut self, value: f64) -> Place {
+impl SineWriter<'_> {
+    fn number(&mut self, value: f64) -> LaneOperand {
         self.steps.number(value)
     }
 
-    fn two(&mut self, operation: Operation, a: Place, b: Place) -> Place {
+    fn two(&mut self, operation: Operation, a: LaneOperand, b: LaneOperand) -> LaneOperand {
         self.steps.step(operation, &[a, b])
     }
 
-    fn shifted(&mut self, operation: Operation, a: Place) -> Place {
+    fn shifted(&mut self, operation: Operation, a: LaneOperand) -> LaneOperand {
         self.steps.step(operation, &[a])
     }
 
     /// a·b + c as the runtime rounds it.
-    fn sum(&mut self, a: Place, b: Place, c: Place) -> Place {
+    fn sum(&mut self, a: LaneOperand, b: LaneOperand, c: LaneOperand) -> LaneOperand {
         if FUSED {
             return self.steps.step(Operation::MultiplyAdd, &[a, b, c]);
         }
@@ -93,7 +93,7 @@ impl Writer<'_> {
     }
 
     /// Notes the lanes whose angles the runtime reduces in whole numbers.
-    fn exceptions(&mut self, shifted: Place, y: Place) {
+    fn exceptions(&mut self, shifted: LaneOperand, y: LaneOperand) {
         // Bits above those of multiples that are allowed; all others are zero.
         let least = self.steps.bits(SHIFTER.to_bits() - MULTIPLES);
         let above = self.two(Operation::SubtractBits, shifted, least);
@@ -115,7 +115,7 @@ impl Writer<'_> {
         }
     }
 
-    fn note(&mut self, exceptions: Place) {
+    fn note(&mut self, exceptions: LaneOperand) {
         let all = match self.steps.exceptions {
             Some(others) => self.two(Operation::Or, others, exceptions),
             None => exceptions,
@@ -124,7 +124,7 @@ impl Writer<'_> {
     }
 
     /// A polynomial in z, pairs of terms side by side.
-    fn series(&mut self, terms: [f64; 6], z: Place) -> Place {
+    fn series(&mut self, terms: [f64; 6], z: LaneOperand) -> LaneOperand {
         let [a, b, c, d, e, f] = terms.map(|term| self.number(term));
         let z2 = self.two(Operation::Multiply, z, z);
         let (last, middle) = (self.sum(f, z, e), self.sum(d, z, c));
@@ -133,7 +133,7 @@ impl Writer<'_> {
         self.sum(rest, z2, first)
     }
 
-    fn fused(&mut self, y: Place, excess: Place) -> [Place; 2] {
+    fn fused(&mut self, y: LaneOperand, excess: LaneOperand) -> [LaneOperand; 2] {
         let z = self.two(Operation::Multiply, y, y);
         let cube = self.two(Operation::Multiply, z, y);
         let one = self.number(1.0);
@@ -147,7 +147,7 @@ impl Writer<'_> {
         })
     }
 
-    fn not_fused(&mut self, y: Place, excess: Place) -> [Place; 2] {
+    fn not_fused(&mut self, y: LaneOperand, excess: LaneOperand) -> [LaneOperand; 2] {
         let (one, half) = (self.number(1.0), self.number(0.5));
         let z = self.two(Operation::Multiply, y, y);
         let half = self.two(Operation::Multiply, half, z);
@@ -169,7 +169,7 @@ impl Writer<'_> {
     }
 
     /// The last two bits of `shifted` are the quadrant: in odd ones sine and cosine change places, and signs follow.
-    fn in_quadrant(&mut self, shifted: Place, [sine, cosine]: [Place; 2]) -> [Place; 2] {
+    fn in_quadrant(&mut self, shifted: LaneOperand, [sine, cosine]: [LaneOperand; 2]) -> [LaneOperand; 2] {
         let (zero, last, sign) = (self.steps.bits(0), self.steps.bits(1), self.steps.bits(SIGN));
         let is_odd = self.two(Operation::And, shifted, last);
         let is_odd = self.two(Operation::SubtractBits, zero, is_odd);

@@ -6,7 +6,7 @@ use gauss_codegen::program::{BinaryFunction, Function, OwnFunction};
 
 /// A vector that a step reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum LaneOperand {
     /// The result of a step.
     Value(usize),
     /// A number of each row.
@@ -50,12 +50,12 @@ pub enum Callee {
 #[derive(Clone, Debug)]
 pub struct Step {
     pub operation: Operation,
-    places: [Place; 3],
+    places: [LaneOperand; 3],
     count: usize,
 }
 
 impl Step {
-    pub fn places(&self) -> &[Place] {
+    pub fn places(&self) -> &[LaneOperand] {
         &self.places[..self.count]
     }
 }
@@ -64,35 +64,35 @@ impl Step {
 #[derive(Debug, Default)]
 pub struct Steps {
     pub steps: Vec<Step>,
-    pub outputs: Vec<Place>,
+    pub outputs: Vec<LaneOperand>,
     /// Bits of the numbers of the code.
     pub numbers: Vec<u64>,
     /// Not zero in lanes that must be computed by themselves; none where that never is.
-    pub exceptions: Option<Place>,
+    pub exceptions: Option<LaneOperand>,
     known_numbers: HashMap<u64, usize>,
 }
 
 impl Steps {
     /// The result of one more step.
-    pub fn step(&mut self, operation: Operation, operands: &[Place]) -> Place {
-        let mut places = [Place::Number(0); 3];
+    pub fn step(&mut self, operation: Operation, operands: &[LaneOperand]) -> LaneOperand {
+        let mut places = [LaneOperand::Number(0); 3];
         let count = operands.len().min(places.len());
         places[..count].copy_from_slice(&operands[..count]);
         self.steps.push(Step { operation, places, count });
-        Place::Value(self.steps.len() - 1)
+        LaneOperand::Value(self.steps.len() - 1)
     }
 
     /// A number by its bits.
-    pub fn bits(&mut self, bits: u64) -> Place {
+    pub fn bits(&mut self, bits: u64) -> LaneOperand {
         let next = self.numbers.len();
         let place = *self.known_numbers.entry(bits).or_insert(next);
         if place == next {
             self.numbers.push(bits);
         }
-        Place::Number(place)
+        LaneOperand::Number(place)
     }
 
-    pub fn number(&mut self, value: f64) -> Place {
+    pub fn number(&mut self, value: f64) -> LaneOperand {
         self.bits(value.to_bits())
     }
 }
