@@ -12,7 +12,8 @@ use std::hint::black_box;
 use gauss_benches::measure::{Way, times};
 use gauss_benches::packs::fingers;
 use gauss_benches::states::Random;
-use gauss_jit::{Kernel, Method, Model};
+use gauss_codegen::program::Program;
+use gauss_jit::{Backend, Compiled, CompiledLanes, Cranelift, Kernel, Method, Model, Tables};
 use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;
 
@@ -20,6 +21,20 @@ use gauss_runtime::simd::Packed;
 const ROWS: usize = 512;
 
 type Lanes = wide::f64x8;
+
+/// Machine code with four lanes, as processors have it that know AVX2 and no AVX-512.
+#[derive(Debug)]
+struct FourLanes;
+
+impl Backend for FourLanes {
+    fn compile(&self, program: &Program, tables: &Tables) -> Option<Box<dyn Compiled>> {
+        Cranelift::default().compile(program, tables)
+    }
+
+    fn compile_lanes(&self, program: &Program, tables: &Tables) -> Option<Box<dyn CompiledLanes>> {
+        Cranelift::default().lanes(program, tables, 4)
+    }
+}
 
 const PENDULUM: &str =
     "#[gauss(coordinates(angle), particle(mass = m, position = [l * sin(angle), 0, -l * cos(angle)]))]
@@ -92,6 +107,7 @@ where
 {
     // It lives as long as the program, as ways do.
     let kernel: &'static Kernel = Box::leak(Box::new(model.kernel(given)?));
+    let four: &'static Kernel = Box::leak(Box::new(model.with_backend(FourLanes).kernel(given)?));
     let method = kernel.method("acceleration")?;
     let start = std::time::Instant::now();
     let width = method.width();
@@ -109,6 +125,7 @@ where
     let function: fn(&K, &Batch, &mut [f64]) = compiled_ahead::<K, N>;
     let ways = [
         at_run_time::<N>(&format!("at run time, {width} lanes"), kernel, in_lanes),
+        at_run_time::<N>("at run time, 4 lanes", four, in_lanes),
         at_run_time::<N>("at run time, row by row", kernel, one_by_one),
         Way::calling("compiled ahead, `wide::f64x8`", vec![batch::<N>()], function, move |function, batch| {
             function(black_box(&ahead), batch, black_box(&mut place.borrow_mut()));
