@@ -175,6 +175,10 @@ fn gather_columns<const W: usize, const N: usize>(
     vectors: &mut [[f64; W]],
 ) {
     let Some(vectors) = vectors[first..].first_chunk_mut::<N>() else { return };
+    if let (1, Some(row)) = (count, rows.first_chunk::<W>()) {
+        vectors[0] = *row;
+        return;
+    }
     for lane in 0..W {
         let Some(row) = rows[lane * count + first..].first_chunk::<N>() else { return };
         for i in 0..N {
@@ -190,6 +194,10 @@ fn scatter_columns<const W: usize, const N: usize>(
     vectors: &[[f64; W]],
 ) {
     let Some(vectors) = vectors[first..].first_chunk::<N>() else { return };
+    if let (1, Some(row)) = (count, rows.first_chunk_mut::<W>()) {
+        *row = vectors[0];
+        return;
+    }
     for lane in 0..W {
         let Some(row) = rows[lane * count + first..].first_chunk_mut::<N>() else { return };
         for i in 0..N {
