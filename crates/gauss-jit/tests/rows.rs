@@ -2,6 +2,8 @@
 //!
 //! Some scenes by default; `ALL_SCENES=1` takes every struct in the files of this project.
 
+#![cfg_attr(not(target_arch = "x86_64"), allow(dead_code, unused_imports))]
+
 #[allow(dead_code, reason = "the list of scenes is shared")]
 #[path = "../../../gauss-codegen/tests/common/mod.rs"]
 mod common;

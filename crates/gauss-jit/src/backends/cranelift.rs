@@ -20,7 +20,6 @@ use gauss_codegen::program::{Function, Input, Instruction, MOST_VARIABLES, Opera
 
 use super::backend::{Backend, Compiled, CompiledLanes, MOST_ARGUMENTS};
 use super::functions::{BINARY, UNARY, binary, is_fused, unary};
-#[cfg(target_arch = "x86_64")]
 use super::lanes;
 use super::machine::{self, MachineCode};
 use crate::tables::Tables;
@@ -57,7 +56,6 @@ impl Backend for Cranelift {
         Some(Box::new(code))
     }
 
-    #[cfg(target_arch = "x86_64")]
     fn compile_lanes(&self, program: &Program, tables: &Tables) -> Option<Box<dyn CompiledLanes>> {
         [8, 4].into_iter().find_map(|width| self.lanes(program, tables, width))
     }
@@ -66,12 +64,11 @@ impl Backend for Cranelift {
 impl Cranelift {
     /// The program for four rows (AVX2) or eight (AVX-512) at once; `None` for other counts and where the processor has
     /// no such vectors. Registers are assigned by code of this crate, since Cranelift has vectors of two numbers.
-    #[cfg(target_arch = "x86_64")]
     #[must_use]
     pub fn lanes(&self, program: &Program, tables: &Tables, width: usize) -> Option<Box<dyn CompiledLanes>> {
         program.verify().ok()?;
         let module = || Some(JITModule::new(JITBuilder::with_isa(self.target(0)?, default_libcall_names())));
-        lanes::compiled(program, tables, width, module).map(|code| Box::new(code) as Box<dyn CompiledLanes>)
+        lanes::compiled(program, tables, width, module)
     }
 
     /// `None` for processors that Cranelift does not know, or where executable memory is refused.

@@ -10,7 +10,9 @@ use cranelift_jit::JITModule;
 use cranelift_module::FuncId;
 use gauss_runtime::table::Table;
 
-use super::backend::{Compiled, CompiledLanes, MOST_ARGUMENTS};
+#[cfg(target_arch = "x86_64")]
+use super::backend::CompiledLanes;
+use super::backend::{Compiled, MOST_ARGUMENTS};
 use super::functions;
 use crate::tables::Tables;
 

@@ -7,6 +7,9 @@ mod functions;
 mod interpreter;
 #[cfg(all(feature = "cranelift", target_arch = "x86_64"))]
 mod lanes;
+#[cfg(all(feature = "cranelift", not(target_arch = "x86_64")))]
+#[path = "no_lanes.rs"]
+mod lanes;
 #[cfg(feature = "cranelift")]
 mod machine;
 

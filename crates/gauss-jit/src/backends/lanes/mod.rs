@@ -15,8 +15,9 @@ use cranelift_jit::JITModule;
 use cranelift_module::{Linkage, Module};
 use gauss_codegen::program::Program;
 
+use super::backend::CompiledLanes;
 use super::functions::{BINARY, UNARY};
-use super::machine::{self, Extent, MachineLanes};
+use super::machine::{self, Extent};
 use crate::tables::Tables;
 use assembler::Width;
 use registers::{Address, EXCEPTIONS, assembled};
@@ -28,7 +29,7 @@ pub fn compiled(
     tables: &Tables,
     width: usize,
     module: impl FnOnce() -> Option<JITModule>,
-) -> Option<MachineLanes> {
+) -> Option<Box<dyn CompiledLanes>> {
     let width = width_of(width)?;
     let steps = lowering::lowered(program);
     let code = assembled(&steps, width, |callee| address(callee, tables))?;
@@ -44,7 +45,8 @@ pub fn compiled(
     let mut module = module()?;
     let id = module.declare_function("lanes", Linkage::Export, &module.make_signature()).ok()?;
     let made = module.define_function_bytes(id, 64, &code.bytes, &[]).is_ok() && module.finalize_definitions().is_ok();
-    machine::lanes(module, made.then_some(id), (extent, steps.numbers), tables)
+    let lanes = machine::lanes(module, made.then_some(id), (extent, steps.numbers), tables)?;
+    Some(Box::new(lanes))
 }
 
 /// Vectors for so many rows that the processor has, with products that are fused with sums as elsewhere.
