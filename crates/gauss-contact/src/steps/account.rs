@@ -10,7 +10,8 @@
 //! rate of the energy at half of it, along its mean speeds and the acceleration that it took. That counts nothing of
 //! forces that have a potential. Forces that steps take at mean speeds do the work that they should, up to (ωh)²/12 of
 //! it: a quarter more than the work is allowed, since a sum of it over a long run is more than all that moves. Work
-//! that is taken away is not counted, and steps that lose energy need no account.
+//! that is taken away is not counted, and steps that lose energy need no account; nor do those without an impact in
+//! which accelerations hardly change, whose change of the energy is explained by their own check (`speeds`).
 
 use gauss_runtime::contact::ContactSystem;
 
@@ -21,6 +22,9 @@ pub(super) struct Account {
     pub(super) low: f64,
     /// The largest kinetic energy that is explained: that at the start, and what `low` leaves at later places.
     pub(super) most: f64,
+    /// The energy after the last step that was accounted for, and whether that is the last step.
+    pub(super) energy: f64,
+    pub(super) is_current: bool,
 }
 
 impl Account {
@@ -29,6 +33,7 @@ impl Account {
         kernel: &K,
         (t, q, z): (f64, &K::Configuration, &K::Speeds),
     ) -> Self {
-        Self { low: kernel.energy(t, q, z), most: kernel.kinetic_energy(t, q, z) }
+        let energy = kernel.energy(t, q, z);
+        Self { low: energy, most: kernel.kinetic_energy(t, q, z), energy, is_current: true }
     }
 }

@@ -20,7 +20,9 @@ use crate::error::{ContactError, ContactErrorKind};
 use super::account::Account;
 use super::motion;
 use super::outcome::{Attempt, End};
+use super::report::StepScheme;
 use super::stepper::ContactStepper;
+use super::used::Used;
 
 /// The part of the kinetic energy that an impact may gain without being made in shorter parts.
 const LITTLE: f64 = 1e-3;
@@ -132,25 +134,39 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
 
     /// The account after a step.
     pub(super) fn accounted(&self, h: f64, made: &Attempt<K>) -> Result<Option<Account>, ContactError> {
-        let Some(Account { low, most }) = self.account else { return Ok(None) };
+        let Some(Account { low, most, energy, is_current }) = self.account else { return Ok(None) };
         let (kernel, t, end) = (self.kernel, self.t + h, &made.end);
+        if !kernel.keeps_energy() && self.is_smooth(h, made) {
+            return Ok(Some(Account { low, most, energy, is_current: false }));
+        }
+        // What smooth steps gave since is explained.
+        let low = if is_current { low } else { low + kernel.energy(self.t, &self.q, &self.z) - energy };
         let (potential, kinetic) = (kernel.potential_energy(t, &end.q), kernel.kinetic_energy(t, &end.q, &end.z));
         let energy = potential + kinetic;
-        let given = match energy > low {
+        let rounding = ROUNDING * (potential.abs() + kinetic + low.abs());
+        let given = match energy > low + rounding {
             true if kernel.keeps_energy() => self.given_by_contacts(h, end),
             true => self.supplied(h, made),
             false => 0.0,
         };
         let low = (low + given).min(energy);
         let most = most.max(low - potential);
-        // What weight makes of rest in a step, and rounding.
+        // What weight makes of rest in a step.
         let of_weight = || kernel.kinetic_energy(t, &end.q, &made.acceleration.scale(h));
-        let rounding = ROUNDING * (potential.abs() + kinetic + low.abs());
         let gained = energy - low;
         if gained > most + rounding && gained > most + rounding + of_weight() {
             return Err(self.error(None, ContactErrorKind::EnergyFromNowhere { gained, kinetic: most, step: h }));
         }
-        Ok(Some(Account { low, most }))
+        Ok(Some(Account { low, most, energy, is_current: true }))
+    }
+
+    /// Whether a step has no impact, and takes forces that hardly differ from those of the step before. Steps without
+    /// a memory do not look back at their forces.
+    fn is_smooth(&self, h: f64, made: &Attempt<K>) -> bool {
+        let has_memory = self.scheme == StepScheme::Midpoint;
+        let (before, after) = (self.z, made.end.z);
+        let used = Used { h, least: self.least(h), before, used: before, acceleration: made.acceleration, after };
+        has_memory && !made.end.struck && !self.last.is_stiff() && self.last.is_smooth(&used)
     }
 
     /// The energy that contacts give in a step: surfaces that move, and Newton's law with friction.

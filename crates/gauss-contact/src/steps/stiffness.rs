@@ -15,6 +15,8 @@ use gauss_runtime::configuration::VectorSpace;
 
 use super::used::Used;
 
+/// The square of ωh below which forces change so little that what a step gains by it needs no account.
+const SMOOTH: f64 = 0.02;
 /// The square of ωh from which on forces are taken at the mean place of a step.
 const SWING: f64 = 0.09;
 /// Number of steps for which that is so after the last with such a force: more than two swings of it.
@@ -56,8 +58,18 @@ impl<V: VectorSpace<f64>> LastForces<V> {
     /// Whether forces have changed so much since the step before that they may do so with places; nothing where there
     /// was no step before.
     pub(super) fn may_stiffen(&self, used: &Used<V>) -> Option<bool> {
+        self.changes_beyond(SWING, used)
+    }
+
+    /// Whether forces have hardly changed since the step before.
+    pub(super) fn is_smooth(&self, used: &Used<V>) -> bool {
+        self.changes_beyond(SMOOTH, used) == Some(false)
+    }
+
+    fn changes_beyond(&self, most: f64, used: &Used<V>) -> Option<bool> {
         // From half of the step before to half of this one.
-        self.free.map(|(h, free)| used.change([&used.acceleration, &free], 2.0 * used.h / (used.h + h)) > SWING)
+        let times = |h: f64| 2.0 * used.h / (used.h + h);
+        self.free.map(|(h, free)| used.change([&used.acceleration, &free], times(h), most) > most)
     }
 }
 
@@ -65,7 +77,7 @@ impl<V: VectorSpace<f64>> Used<V> {
     /// Whether forces are to be taken at mean places, given the accelerations by places at half of the step and before
     /// it.
     pub(super) fn stiffens(&self, accelerations: [&V; 2]) -> bool {
-        self.change(accelerations, 2.0) > SWING
+        self.change(accelerations, 2.0, SWING) > SWING
     }
 
     /// The same, given those at half of the step and at the mean place, to which the change of speeds in the step leads
@@ -75,11 +87,12 @@ impl<V: VectorSpace<f64>> Used<V> {
     }
 
     /// The largest part of itself by which a speed would change in a step by what two accelerations differ, times as
-    /// much as the way between them is shorter than that of the step: the square of ωh.
-    fn change(&self, [one, other]: [&V; 2], times: f64) -> f64 {
+    /// much as the way between them is shorter than that of the step: the square of ωh; 0 where it is clearly below a
+    /// number.
+    fn change(&self, [one, other]: [&V; 2], times: f64, most: f64) -> f64 {
         let by = |i: usize| times * self.h * (one.component(i) - other.component(i)).abs();
         // Mostly forces change by nothing that the speeds alone would not show.
-        if (0..V::DIM).all(|i| by(i) <= SWING * self.before.component(i).abs()) {
+        if (0..V::DIM).all(|i| by(i) <= most * self.before.component(i).abs()) {
             return 0.0;
         }
         let sizes = self.magnitudes();
