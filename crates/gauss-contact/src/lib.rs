@@ -64,13 +64,13 @@ extern crate alloc;
 // memory refuse), `gain` (the energy of its impacts), `account` (that of a run), `step` (one step, in any scalar and
 // whoever decides, over the formulas of `motion`), `stepper` (decides by the values of one state) and `outcome` (what
 // an attempt came to), `held` (between steps, while contacts change), `report`, `run`; `relaxed`, the other law, and
-// `adaptive`, steps that keep a tolerance. `lanes`: several states at once in packs; `together` decides for all of
-// them, by laws (`posed`, the laws of a step as a problem) that are generic in the scalar and know by `lockstep`
-// whether lanes decide alike, or lane by lane; `rounds`, what one lane tries alone. `ensemble`: many on threads.
-// `changeover`: from `run` to `steps` and back. `slots`: contacts that come at run time: `slot`, `place` (how it
-// moves), `envelope` (A), `system`. Derivatives of a step: `watch` (what a step decided), `followed` (decides as it did,
-// in dual numbers, over `active`, the laws of contacts that act), `edges` (contacts at a change), `derivatives`; `kept`
-// (a state to go back to).
+// `adaptive`, steps that keep a tolerance. `lanes`: several states at once in packs, each a `lane`; `together` decides
+// for all of them, by laws (`posed`, the laws of a step as a problem) that are generic in the scalar and know by
+// `lockstep` whether lanes decide alike, or lane by lane; `rounds`, what one lane tries alone. `ensemble`: many on
+// threads. `changeover`: from `run` to `steps` and back. `slots`: contacts that come at run time: `slot`, `place` (how
+// it moves), `envelope` (A), `system`. Derivatives of a step: `watch` (what a step decided), `followed` (decides as it
+// did, in dual numbers, over `active`, the laws of contacts that act), `edges` (contacts at a change), `derivatives`;
+// `kept` (a state to go back to).
 mod action;
 mod balance;
 mod ball;

@@ -7,7 +7,8 @@ use gauss_runtime::simd::Packed;
 
 use crate::error::{ContactError, ContactErrorKind};
 
-use super::lanes::{ContactLanes, LanesOf};
+use super::lane::LanesOf;
+use super::lanes::ContactLanes;
 use super::stepper::ContactStepper;
 
 /// Many systems on their way in steps, in blocks of as many as a pack has lanes.

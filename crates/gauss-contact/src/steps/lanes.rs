@@ -1,10 +1,10 @@
 //! Steps of several states at once.
 //!
-//! A kernel whose scalar is a pack ([`simd`](gauss_runtime::simd)) gives each lane the bits that it would get alone. The
-//! kernel works on all lanes at once; as long as all decide alike their laws are solved in packs as well, else by the
-//! stepper of each lane (`together`): so a lane has the bits of a stepper of its own. Lanes that need something else
-//! than the others go that step alone: at the start and after impacts, where the step is made twice, where a flight
-//! ends, where a step is made again for its speeds, and where it is made in parts.
+//! A kernel whose scalar is a pack ([`simd`](gauss_runtime::simd)) gives each lane the bits that it would get alone. It
+//! works on all lanes at once; as long as all decide alike their laws are solved in packs as well, else by the stepper
+//! of each lane (`together`): so a lane has the bits of a stepper of its own. Lanes that need something else than the
+//! others go that step alone: at the start and after impacts, where the step is made twice, where a flight ends, where
+//! a step is made again for its speeds, and where it is made in parts.
 
 use alloc::vec::Vec;
 
@@ -16,38 +16,15 @@ use gauss_runtime::simd::Packed;
 use crate::error::{ContactError, ContactErrorKind};
 
 use super::impulses;
+use super::lane::{Lane, LanesOf, PackedState, Stage, middle_of, packed, single};
 use super::motion::{self, Middle};
-use super::outcome::{Attempt, Pushed};
+use super::outcome::Attempt;
 use super::projection::{Closed, Projection};
 use super::report::{StepReport, StepScheme};
 use super::step::{Contacted, Step};
 use super::stepper::ContactStepper;
-use super::together::{LaneDynamics, Together};
+use super::together::Together;
 use super::used::Used;
-
-/// A system in packs, each lane of which is the system `K`: `Kernel<wide::f64x8>` of a struct that is generic in its
-/// scalar, of which `K` is `Kernel<f64>`.
-pub trait LanesOf<K: ContactSystem<Scalar = f64>>:
-    ContactSystem<
-        Scalar: Packed<Single = f64>,
-        Configuration: Packed<Single = K::Configuration>,
-        Input: Packed<Single = K::Input>,
-        ImpulseFactors: Packed<Single = K::ImpulseFactors>,
-        Delassus: Packed<Single = K::Delassus>,
-    >
-{
-}
-
-impl<W, K: ContactSystem<Scalar = f64>> LanesOf<K> for W where
-    W: ContactSystem<
-            Scalar: Packed<Single = f64>,
-            Configuration: Packed<Single = K::Configuration>,
-            Input: Packed<Single = K::Input>,
-            ImpulseFactors: Packed<Single = K::ImpulseFactors>,
-            Delassus: Packed<Single = K::Delassus>,
-        >
-{
-}
 
 /// As many systems on their way in steps as a pack has lanes, or fewer.
 ///
@@ -74,42 +51,6 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> core::fmt::Debug for Contact
         let mut shown = f.debug_struct("ContactLanes");
         shown.field("steppers", steppers).field("outcomes", outcomes).field("alone", alone).finish_non_exhaustive()
     }
-}
-
-/// The states of all lanes, which steppers have as well.
-pub(super) struct PackedState<W: ContactSystem> {
-    pub(super) t: W::Scalar,
-    pub(super) q: W::Configuration,
-    pub(super) z: W::Speeds,
-    pub(super) gaps: W::Gaps,
-    pub(super) rates: W::ContactRows,
-    pub(super) impulses: W::ContactRows,
-    /// Mean acceleration of the step before.
-    pub(super) acceleration: W::Speeds,
-}
-
-/// Progress of a lane in a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Stage {
-    /// It goes this step alone.
-    Alone,
-    /// No contact may act in it.
-    Flies,
-    /// Contacts may act in it.
-    Touches,
-    /// The step is made, or none is to be.
-    Done,
-}
-
-/// A lane in a step.
-pub(super) struct Lane<'k, K: ContactSystem<Scalar = f64>> {
-    pub(super) stage: Stage,
-    /// Whether contacts depended on one another before the step.
-    dependent: bool,
-    /// Motion without contacts, of a lane that decides alone: it is large, and stays where it is.
-    pub(super) dynamics: Option<LaneDynamics<'k, K>>,
-    pub(super) pushed: Option<Pushed<K>>,
-    pub(super) closed: Option<Closed<K>>,
 }
 
 impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
@@ -301,51 +242,7 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
     }
 }
 
-/// The state at half of a step of a lane.
-pub(super) fn middle_of<W: LanesOf<K>, K: ContactSystem<Scalar = f64>>(middle: &Middle<W>, lane: usize) -> Middle<K> {
-    Middle {
-        t: middle.t.lane(lane),
-        q: middle.q.extract(lane),
-        z: single::<W, _, K::Speeds>(&middle.z, lane),
-        half: middle.half.extract(lane),
-        way: single::<W, _, K::Speeds>(&middle.way, lane),
-        is_mean: middle.is_mean,
-    }
-}
-
-/// The numbers of all lanes.
-fn packed<W: ContactSystem<Scalar: Packed<Single = f64>>, V: VectorSpace<f64>, P: VectorSpace<W::Scalar>>(
-    of: impl Fn(usize) -> V,
-) -> P {
-    let mut pack = P::zero();
-    (0..W::Scalar::WIDTH).for_each(|lane| put::<W, _, _>(&mut pack, lane, &of(lane)));
-    pack
-}
-
 /// Number of numbers that the laws of all lanes need.
 const fn memory<W: ContactSystem>() -> usize {
     impulses::memory(W::ContactRows::DIM) + Projection::<W>::MEMORY
-}
-
-/// The numbers of a lane.
-pub(super) fn single<W: ContactSystem<Scalar: Packed<Single = f64>>, V: VectorSpace<W::Scalar>, U: VectorSpace<f64>>(
-    pack: &V,
-    lane: usize,
-) -> U {
-    let mut one = U::zero();
-    (0..U::DIM).for_each(|i| one.set_component(i, pack.component(i).extract(lane)));
-    one
-}
-
-/// The numbers of a lane, replaced.
-pub(super) fn put<W: ContactSystem<Scalar: Packed<Single = f64>>, V: VectorSpace<W::Scalar>, U: VectorSpace<f64>>(
-    pack: &mut V,
-    lane: usize,
-    one: &U,
-) {
-    for i in 0..V::DIM {
-        let mut number = pack.component(i);
-        number.replace(lane, &one.component(i));
-        pack.set_component(i, number);
-    }
 }

@@ -507,7 +507,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> Decisions<K> for ContactSt
         projected.map_err(|cause| self.error(None, ContactErrorKind::Projection(cause)))
     }
 
-    /// What is left open rests no longer.
+    /// Closed gaps brought to zero; a contact that is left open rests no longer.
     fn close(
         &mut self,
         StepDynamics { step, impulses, .. }: &StepDynamics<K>,

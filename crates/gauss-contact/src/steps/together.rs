@@ -1,7 +1,7 @@
 //! Decisions of several lanes of a step: in packs as long as lanes decide alike, lane by lane else.
 
 use gauss_runtime::configuration::VectorSpace;
-use gauss_runtime::contact::{ContactSystem, Each, ImpulseDynamics, ImpulseResponse};
+use gauss_runtime::contact::{ContactSystem, Each, ImpulseDynamics};
 use gauss_runtime::real::Real;
 use gauss_runtime::simd::Packed;
 
@@ -10,8 +10,8 @@ use crate::mode::{Mode, after_impulses};
 use super::bounds::Touched;
 use super::cones::Laws;
 use super::impulses::{self, Impulses};
-use super::lanes::{Lane, LanesOf, PackedState, Stage, middle_of, put, single};
-use super::motion::{self, Middle};
+use super::lane::{Lane, LaneDynamics, LanesOf, PackedState, Stage, put, single};
+use super::motion;
 use super::outcome::Pushed;
 use super::posed::Posed;
 use super::projection::{Closed, Projection};
@@ -143,47 +143,6 @@ impl<'a, 'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> Together<'a, 'k, W, 
         let alike = self.in_lockstep && contacts.clone().all(|i| self.alike(|lane| self.rests(lane, i)));
         let of = |i: usize| if contacts.contains(&i) { self.rests(0, i) } else { (false, Mode::Open) };
         alike.then(|| (Each::from_fn(|i| of(i).0), Each::from_fn(|i| of(i).1)))
-    }
-}
-
-/// The motion of a lane without contacts in a step.
-pub(super) struct LaneDynamics<'k, K: ContactSystem<Scalar = f64>> {
-    kernel: &'k K,
-    h: f64,
-    end: f64,
-    z: K::Speeds,
-    middle: Middle<K>,
-    friction: K::ContactRows,
-    free: K::Speeds,
-    impulses: ImpulseDynamics<K>,
-}
-
-impl<'k, K: ContactSystem<Scalar = f64>> LaneDynamics<'k, K> {
-    fn new<W: LanesOf<K>>(
-        &StepDynamics { step, friction, free, impulses }: &StepDynamics<W>,
-        ContactStepper { kernel, t, z, .. }: &ContactStepper<'k, K>,
-        lane: usize,
-    ) -> Self {
-        let ImpulseDynamics { acceleration, bias, response, .. } = impulses;
-        let response = ImpulseResponse::new(response.factors.extract(lane), response.delassus.extract(lane));
-        let (acceleration, bias) = (single::<W, _, _>(acceleration, lane), single::<W, _, _>(bias, lane));
-        Self {
-            kernel,
-            h: step.h,
-            end: t + step.h,
-            z: *z,
-            middle: middle_of::<W, K>(step.middle, lane),
-            friction: single::<W, _, _>(friction, lane),
-            free: single::<W, _, _>(free, lane),
-            impulses: ImpulseDynamics::new(acceleration, bias, response),
-        }
-    }
-
-    /// A decision on the step of the lane.
-    fn decide<T>(&self, decision: impl FnOnce(&StepDynamics<K>) -> T) -> T {
-        let Self { kernel, h, end, z, middle, friction, free, impulses } = self;
-        let step = Step { kernel: *kernel, h: *h, end: *end, z, middle };
-        decision(&StepDynamics { step: &step, friction, free, impulses })
     }
 }
 
