@@ -205,7 +205,7 @@ fn constants((q, z): State) -> (Isometry3<Number>, SVector<Number, 6>) {
     (Configuration::from_components(&lifted(&q.components())), lifted(&z))
 }
 
-/// By friction, restitution and weight through an impact: those with the clause, in the same numbers.
+/// Derivatives by friction, restitution and weight through an impact are those of the clause, in the same numbers.
 #[test]
 fn runs_of_slots_have_derivatives() {
     let [mu, e, g] = variables([0.5, 0.2, 9.81]);

@@ -22,7 +22,7 @@ struct Ball<T> {
     g: T,
 }
 
-/// By the increment of the pose, the speeds and both inputs; bounces, or ends at the floor.
+/// A run by the increment of the pose, the speeds and both inputs; it bounces, or ends at the floor.
 struct Bounces {
     instants: [f64; 2],
     ends: bool,

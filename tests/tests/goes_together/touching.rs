@@ -294,7 +294,7 @@ struct AnyBall<T> {
     m: T,
 }
 
-/// By its mass, over a floor that is a slot; the kernel lives on, since slots refer to it.
+/// A run over a floor that is a slot, differentiated by a mass; kernels live on, since slots refer to them.
 struct OverSlots;
 
 impl Run<1> for OverSlots {

@@ -51,7 +51,7 @@ fn largest<K: ContactSystem<Scalar = f64>>(
     (most / start, None)
 }
 
-/// What stops give for setting in within a step comes from nowhere, whatever else could give energy, and does not.
+/// Energy that stops give for setting in within a step comes from nowhere, whatever else could give some.
 #[test]
 fn what_nothing_gives_is_told_beside_inputs_and_frames_that_move() {
     let (mut number, mut told) = (numbers(41), [0; 2]);

@@ -26,7 +26,7 @@ pub trait Compiled: Debug + Send + Sync {
     /// Writes the outputs, result by result.
     ///
     /// # Panics
-    /// Of lists whose lengths are not those of the program.
+    /// Lists whose lengths are not those of the program panic.
     fn run(&self, arguments: &[&[f64]], outputs: &mut [f64]);
 
     /// Whether it is machine code.
@@ -48,7 +48,7 @@ pub trait CompiledLanes: Debug + Send + Sync {
     /// `k`: these are to be computed alone.
     ///
     /// # Panics
-    /// Of lists whose lengths are not those of the program.
+    /// Lists whose lengths are not those of the program panic.
     fn run(&self, shared: &[f64], inputs: &[f64], outputs: &mut [f64], room: &mut [f64]) -> u32;
 }
 

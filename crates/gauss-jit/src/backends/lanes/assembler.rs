@@ -41,7 +41,7 @@ pub enum Base {
 #[derive(Clone, Copy, Debug)]
 pub struct Location {
     pub base: Base,
-    /// In bytes.
+    /// Distance from the base in bytes.
     pub offset: i32,
     pub is_single: bool,
 }

@@ -24,7 +24,8 @@ const PARTS: [u64; 3] = if FUSED {
 } else {
     [0x3FF9_21FB_5440_0000, 0x3DD0_B461_1A60_0000, 0x3BA3_198A_2E03_7073]
 };
-/// (y − sin y)/y³ by powers of y².
+/// (y − sin y)/y³ by powers of y², with the numbers of the runtime, which keeps them to itself: `tests/rows.rs` holds
+/// rows to its bits.
 const SINE: [f64; 6] = [
     1.666_666_666_666_663_2e-1,
     -8.333_333_333_322_49e-3,
