@@ -11,7 +11,6 @@ mod impacts;
 mod marks;
 mod passing;
 mod pushes;
-mod rocking;
 mod spatial;
 mod steps;
 mod tossed;
