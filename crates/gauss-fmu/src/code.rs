@@ -8,7 +8,6 @@ use gauss_codegen::parameters::{Check, Given, Rule};
 use gauss_codegen::program::{ArgumentKind, Malformed, Program};
 use gauss_codegen::targets::c;
 
-use crate::tangent::tangent;
 use crate::variables::{Role, Variable, count, ordered, outputs};
 
 /// Arguments that change along a direction of states, inputs and time: accelerations too, of which outputs are made.
@@ -175,7 +174,7 @@ impl Scene<'_> {
         self.group(out, "model_outputs", &format!("{moving}, {ACCELERATION}, double *out"), list);
         let regularity = own.program("regularity");
         self.regularity(out, regularity, state);
-        let constants = tangent(constants, "kernel_tangent", &[ArgumentKind::Parameters])?;
+        let constants = constants.tangent("kernel_tangent", &[ArgumentKind::Parameters])?;
         let arguments = "const double *parameters, const double *dparameters, double *out";
         self.group(out, "model_constants_tangent", arguments, [Some((&constants, "out"))]);
         let along = "double dt, const double *dq, const double *dz, const double *dinput";
@@ -236,7 +235,7 @@ impl Scene<'_> {
         let rates = [(kinematics, "v"), (acceleration, "dacceleration")];
         let rates = rates.into_iter().filter_map(|(program, to)| Some((program?, to.to_owned())));
         let all = rates.chain(groups.iter().map(|group| group.program).zip(self.output_places()));
-        let made = all.map(|(program, to)| Ok((tangent(program, &format!("{}_{name}", program.name), kinds)?, to)));
+        let made = all.map(|(program, to)| Ok((program.tangent(&format!("{}_{name}", program.name), kinds)?, to)));
         let made = made.collect::<Result<Vec<_>, _>>()?;
         let list: Vec<_> = made.iter().map(|(program, to)| Some((program, &to[..]))).collect();
         self.group(out, &format!("model_{name}"), arguments, list);

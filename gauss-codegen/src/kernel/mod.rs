@@ -7,7 +7,7 @@
 //! - `factor`: common factors of the terms of a sum are pulled out.
 //! - `network`: sums and products of many terms; parts that occur more than once are split off.
 //! - `write`: networks as instructions. `passes`: which passes are made on the way.
-//! - `tangent`, `adjoint`: derivatives of programs, forward and backward.
+//! - `tangent`, `adjoint`: derivatives of programs along directions, forward and backward.
 //! - `hessian`: second derivatives of one number.
 //! - `derivatives`: derivatives of functions by what moves; `parametric`: by parameters.
 //! - `columns`: derivatives that are the solutions of one linear system, solved for together.
