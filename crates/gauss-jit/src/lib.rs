@@ -31,7 +31,8 @@ pub use configuration::{MixedConfiguration, MixedVector};
 pub use contacts::SystemWithContacts;
 pub use error::{CallError, KernelError, Misgiven, Mistake, Mistakes, Place, TableMistake, TableMistakes};
 pub use gauss_codegen::description::{ContactDescription, Description, Quantity, QuantityKind, Remark};
-pub use gauss_codegen::{Clause, Field, Notation, Scene};
+pub use gauss_codegen::program::{Functions, UnknownMethods};
+pub use gauss_codegen::{Clause, Field, Notation, Scene, targets};
 pub use kernel::{Kernel, Method};
 pub use model::Model;
 #[doc(hidden)]

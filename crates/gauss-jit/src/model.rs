@@ -7,7 +7,7 @@ use std::sync::{Arc, Once, OnceLock};
 
 use gauss_codegen::description::Description;
 use gauss_codegen::parameters::{Parameter, Parameters, TableClause};
-use gauss_codegen::program::{Argument, Counts, Instruction, Program, Results};
+use gauss_codegen::program::{Argument, Counts, Functions, Instruction, Program, Results};
 use gauss_codegen::{Derivation, Notation, Scene};
 use gauss_runtime::contact::Contact;
 
@@ -221,6 +221,13 @@ impl Model {
             Notation::Text => &self.derived.data.equations[0],
             Notation::Latex => &self.derived.data.equations[1],
         }
+    }
+
+    /// The programs of all methods and of the constants, as targets read them ([`targets`](crate::targets)).
+    pub fn functions(&self) -> Functions {
+        let Data { name, equations: [equations, _], constants, methods, .. } = &self.derived.data;
+        let (name, equations) = (name.clone(), equations.clone());
+        Functions { name, equations, constants: constants.clone(), methods: methods.clone() }
     }
 
     /// The operations of each method by their kind: `OPERATIONS` of a compiled kernel, counted where no vectors are

@@ -1,5 +1,6 @@
 //! A model: a scene with its equations.
 
+use gauss_jit::targets::casadi;
 use gauss_jit::{Array, Cache, Notation};
 use numpy::{PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
@@ -124,6 +125,17 @@ impl Model {
             arguments.map(|own| (own.name.clone(), own.components.clone())).collect(),
             results.map(|own| (own.name.clone(), own.rows, own.columns)).collect(),
         ))
+    }
+
+    /// The source in C for CasADi of these methods, or of all where none is named.
+    fn casadi(&self, py: Python<'_>, methods: Vec<String>) -> PyResult<String> {
+        let own = |name: String| if name == "inverse_dynamics" { "gauss_residual".to_owned() } else { name };
+        let methods: Vec<String> = methods.into_iter().map(own).collect();
+        let functions = self.model.functions().only(&methods).map_err(|mut error| {
+            error.known = error.known.iter().map(|name| shown(name)).collect();
+            PyValueError::new_err(error.to_string())
+        })?;
+        py.detach(|| casadi::source(&functions)).map_err(|error| PyValueError::new_err(error.to_string()))
     }
 
     /// The attributes of the class of its kernels.

@@ -31,17 +31,23 @@ const LINE: usize = 88;
 /// and the method, `heavy_top_acceleration`.
 pub fn source(functions: &Functions) -> String {
     let prefix = snake(&functions.name);
-    let mut out = comment(&functions.equations);
-    out.push_str("#include <math.h>\n");
-    if functions.programs().any(calls_signum) {
-        write!(out, "\n{SIGNUM}").ok();
-    }
-    let own = own_functions(functions.programs());
-    if !own.is_empty() {
-        write!(out, "\n/* To be provided: functions of the scene, name_n their n-th derivatives. */\n{own}").ok();
-    }
+    let mut out = beginning(&functions.equations, functions.programs());
     for program in functions.programs() {
         write!(out, "\n{}", function(program, &prefix)).ok();
+    }
+    out
+}
+
+/// What stands before the functions of programs: the equations, and what they call.
+pub(super) fn beginning<'a>(equations: &str, programs: impl Iterator<Item = &'a Program> + Clone) -> String {
+    let mut out = comment(equations);
+    out.push_str("#include <math.h>\n");
+    if programs.clone().any(calls_signum) {
+        write!(out, "\n{SIGNUM}").ok();
+    }
+    let own = own_functions(programs);
+    if !own.is_empty() {
+        write!(out, "\n/* To be provided: functions of the scene, name_n their n-th derivatives. */\n{own}").ok();
     }
     out
 }

@@ -1,10 +1,11 @@
-//! Programs as source text, in Rust and in C99. A target is a module that reads [`Program`]s and writes code.
+//! Programs as source text, in Rust and in C99, for CasADi too. A target is a module that reads [`Program`]s and writes code.
 
 use std::fmt::Write;
 
 use crate::program::{Argument, ArgumentKind, Program, Results};
 
 pub mod c;
+pub mod casadi;
 pub mod rust;
 
 /// Arguments without components are left out.

@@ -134,3 +134,24 @@ fn tables_to_be_provided() {
     }
     assert!(code.contains("= well_1_0(q[0], q[1]);"), "{code}");
 }
+
+/// CasADi itself calls them in the tests of the command, in Python; here all that can be written must compile.
+#[test]
+fn functions_for_casadi_compile_without_a_warning() {
+    let Some(compiler) = compiler() else {
+        println!("no C compiler: nothing tested");
+        return;
+    };
+    let directory = PathBuf::from(env!("CARGO_TARGET_TMPDIR"));
+    // Without fields there are no parameters.
+    let numbers =
+        "#[gauss(coordinates(x), particle(mass = 2, position = [x, 0, 0]), drive(x = -3 * x))] struct Numbers {}";
+    let numbers = Derivation::of_source(numbers, "Numbers").expect("a scene");
+    for derivation in [derivation("Top"), derivation("Laws"), derivation("Arms"), numbers] {
+        let name = derivation.name();
+        let functions = derivation.functions().only(&["acceleration", "mass_matrix"].map(String::from));
+        let source = targets::casadi::source(&functions.expect("both are there")).expect("of right shape");
+        let main = "int main(void)\n{\n    return 0;\n}\n";
+        compiled(compiler, &directory, &format!("{name}_casadi"), &format!("{source}\n{main}"));
+    }
+}

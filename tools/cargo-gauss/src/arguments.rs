@@ -39,9 +39,9 @@ pub struct Show {
     /// page.
     #[arg(long, value_delimiter = ',')]
     pub charts: Vec<String>,
-    /// With `--as program`: one method alone.
-    #[arg(long)]
-    pub method: Option<String>,
+    /// With programs, C or Rust: these methods alone, with commas.
+    #[arg(long = "method", value_delimiter = ',')]
+    pub methods: Vec<String>,
     /// Writes to this file in place of the terminal.
     #[arg(long, short)]
     pub output: Option<PathBuf>,
@@ -59,6 +59,8 @@ pub enum Form {
     Program,
     /// A source file in C99.
     C,
+    /// The same with derivatives, for `external` of CasADi.
+    Casadi,
     /// What the derive writes.
     Rust,
     /// Functions of `f64` in Rust that need nothing else.

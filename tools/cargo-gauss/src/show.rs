@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use gauss_codegen::program::Program;
 use gauss_codegen::{Derivation, Notation, targets};
 use proc_macro2::TokenStream;
 use syn::{DeriveInput, Error};
@@ -30,11 +31,7 @@ pub fn show(wanted: &Show) -> Result<(), String> {
     let all = derive(wanted, &items)?;
     let text = match wanted.form {
         Form::Html => page::html(&file, &all),
-        form => all
-            .iter()
-            .map(|shown| text(shown, form, wanted.method.as_deref()))
-            .collect::<Result<Vec<_>, _>>()?
-            .join("\n"),
+        form => all.iter().map(|shown| text(shown, form, &wanted.methods)).collect::<Result<Vec<_>, _>>()?.join("\n"),
     };
     match &wanted.output {
         Some(path) => gauss_files::write(path, text).map_err(|error| format!("{}: {error}", path.display())),
@@ -71,33 +68,25 @@ pub fn located(file: &Path, mistakes: &syn::Error) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-fn text(shown: &Shown, form: Form, method: Option<&str>) -> Result<String, String> {
+fn text(shown: &Shown, form: Form, methods: &[String]) -> Result<String, String> {
     let derivation = &shown.derivation;
+    let functions = derivation.functions().only(methods).map_err(|error| error.to_string())?;
     match form {
         Form::Text => Ok(plain(shown)),
         Form::Latex => Ok(derivation.equations(Notation::Latex).to_owned()),
-        Form::Program => match method {
-            Some(method) => {
-                let names = || {
-                    derivation
-                        .functions()
-                        .programs()
-                        .map(|program| program.name.as_str())
-                        .collect::<Vec<_>>()
-                        .join(", ")
-                };
-                let found = derivation.functions().programs().find(|program| program.name == method);
-                let missing = || format!("{} has no method `{method}`; it has {}", derivation.name(), names());
-                found.map(ToString::to_string).ok_or_else(missing)
-            }
-            None => Ok(derivation.functions().programs().map(ToString::to_string).collect::<Vec<_>>().join("\n")),
-        },
-        Form::C => Ok(targets::c::source(derivation.functions())),
+        Form::Program if methods.is_empty() => Ok(printed(functions.programs())),
+        Form::Program => Ok(printed(functions.methods.iter())),
+        Form::C => Ok(targets::c::source(&functions)),
+        Form::Casadi => targets::casadi::source(&functions).map_err(|mistake| mistake.to_string()),
         // A derivation of a struct has it.
         Form::Rust => pretty(derivation.rust().cloned().unwrap_or_default()),
-        Form::Functions => pretty(targets::rust::source(derivation.functions())),
+        Form::Functions => pretty(targets::rust::source(&functions)),
         Form::Html => Ok(String::new()),
     }
+}
+
+fn printed<'a>(programs: impl Iterator<Item = &'a Program>) -> String {
+    programs.map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
 fn pretty(code: proc_macro2::TokenStream) -> Result<String, String> {

@@ -106,6 +106,18 @@ class Model:
     def __call__(self, **parameters):
         return self._class(**parameters)
 
+    def casadi(self, path, methods=()):
+        """Writes methods, or all, as C with the interface of CasADi's `external`: functions `arm_acceleration`, of
+        the name of the model and the method, which take the parameters first, with sparse Jacobians and adjoints.
+
+        `cc -O2 -shared -fPIC arm.c -o arm.so -lm` compiles it, `casadi.external("arm_acceleration", "./arm.so")` takes
+        one. Raises ValueError with the names of methods that are not there, and OSError where nothing can be written.
+        """
+        methods = [methods] if isinstance(methods, str) else list(methods)
+        source = self._native_model.casadi(methods)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(source)
+
     def _repr_latex_(self):
         return f"$$\n{self.latex}\n$$"
 
