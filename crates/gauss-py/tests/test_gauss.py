@@ -276,6 +276,22 @@ def test_scenes_may_read_files(tmp_path):
         pickle.loads(kept)
 
 
+def test_joints_are_locked():
+    """The motion of what is left needs no force in the whole but in the joint that is held."""
+    whole, bent = gauss.load(ARM, gravity=9.81), gauss.load(ARM, ["lock(elbow = 0.7)"], gravity=9.81)
+    assert bent.coordinate_names == bent.input_names == ["shoulder"]
+    q, z, tau = np.random.default_rng(4).uniform(-2, 2, (3, 20, 1))
+    both, speeds, efforts = np.hstack([q, 0 * q + 0.7]), np.hstack([z, 0 * z]), np.hstack([tau, 0 * tau])
+    np.testing.assert_allclose(bent.mass_matrix(q), whole.mass_matrix(both)[:, :1, :1], rtol=0, atol=50 * EPS)
+    rates = np.hstack([bent.acceleration(q, z, tau), 0 * q])
+    rest = whole.inverse_dynamics(both, speeds, rates, efforts)
+    # Torques of up to 20 N m, each of a few dozen products.
+    np.testing.assert_allclose(rest[:, 0], 0, atol=50 * 20 * EPS)
+    assert np.abs(rest[:, 1]).max() > 1
+    with pytest.raises(gauss.SceneError, match="is no coordinate, and a lock holds one; did you mean `elbow`"):
+        gauss.load(ARM, ["lock(elbo = 0.7)"])
+
+
 def test_gravity_has_three_components_or_one():
     q = [0.3, 0.2]
     down, none = gauss.load(ARM, gravity=[0, 0, -9.81]), gauss.load(ARM, gravity=0)

@@ -45,36 +45,32 @@ impl Structure {
         }
         let root = if faults.is_empty() { root(description, &parent_of, &mut faults) } else { None };
         let Some(root) = root else { return Err(faults) };
-        let count = description.links.len();
-        let origin = ([0.0; 3], Rotation::none().matrix);
-        let mut structure = Structure {
-            root,
-            joint_of,
-            parent_of,
-            owner_of: (0..count).collect(),
-            owned_by: vec![Vec::new(); count],
-            place_in_owner: vec![origin; count],
-            coupling_of,
-        };
-        for link in 0..count {
-            structure.settle(description, link);
-            structure.owned_by[structure.owner_of[link]].push(link);
-        }
+        let (owner_of, owned_by, place_in_owner) = (Vec::new(), Vec::new(), Vec::new());
+        let mut structure = Structure { root, joint_of, parent_of, owner_of, owned_by, place_in_owner, coupling_of };
+        structure.hold(description, &vec![None; description.joints.len()]);
         Ok(structure)
     }
 
-    /// Which link this one moves as one with. Circles have been refused.
-    fn settle(&mut self, description: &Description, link: usize) {
+    /// Holds joints as if they were fixed, each turned or moved by that much.
+    pub fn hold(&mut self, description: &Description, held: &[Option<f64>]) {
+        let count = description.links.len();
+        self.owned_by = vec![Vec::new(); count];
+        (self.owner_of, self.place_in_owner) = (0..count).map(|link| self.owner(description, held, link)).unzip();
+        (0..count).for_each(|link| self.owned_by[self.owner_of[link]].push(link));
+    }
+
+    /// Which link this one moves as one with, and where it is in its axes. Circles have been refused.
+    fn owner(&self, description: &Description, held: &[Option<f64>], link: usize) -> (usize, (Triple, Matrix)) {
         let (mut owner, mut place) = (link, ([0.0; 3], Rotation::none().matrix));
         while let (Some(joint), Some(parent)) = (self.joint_of[owner], self.parent_of[owner]) {
-            let joint = &description.joints[joint];
-            if joint.kind != JointKind::Fixed {
+            let (joint, by) = (&description.joints[joint], held[joint]);
+            if joint.kind != JointKind::Fixed && by.is_none() {
                 break;
             }
-            place = hung(joint, place);
+            place = hung(joint, displaced(joint, by.unwrap_or(0.0), place));
             owner = parent;
         }
-        (self.owner_of[link], self.place_in_owner[link]) = (owner, place);
+        (owner, place)
     }
 
     /// Position and rotation of a link in the axes of the root while no joint is turned or moved.
@@ -94,15 +90,7 @@ impl Structure {
             let joint = &description.joints[joint];
             let (position, rotation) = joint.start;
             let start = Joint { position, rotation, ..joint.clone() };
-            let (position, matrix) = place;
-            let own = match (joint.kind, by(joint)) {
-                (JointKind::Turning, angle) if angle != 0.0 => {
-                    let turn = about_direction(&joint.axis, angle);
-                    (turned(&turn, &position), multiply(&turn, &matrix))
-                }
-                (JointKind::Sliding, way) => (std::array::from_fn(|i| position[i] + way * joint.axis[i]), matrix),
-                _ => place,
-            };
+            let own = displaced(joint, by(joint), place);
             place = hung(if joint.kind == JointKind::Floating { &start } else { joint }, own);
             link = parent;
         }
@@ -134,6 +122,18 @@ impl Structure {
             [one] => Some(*one),
             all => Some(sum(all)),
         }
+    }
+}
+
+/// A place in the axes of the child of a joint with one coordinate, once that is turned or moved by that much.
+fn displaced(joint: &Joint, by: f64, (position, matrix): (Triple, Matrix)) -> (Triple, Matrix) {
+    match joint.kind {
+        JointKind::Turning if by != 0.0 => {
+            let turn = about_direction(&joint.axis, by);
+            (turned(&turn, &position), multiply(&turn, &matrix))
+        }
+        JointKind::Sliding => (std::array::from_fn(|i| position[i] + by * joint.axis[i]), matrix),
+        _ => (position, matrix),
     }
 }
 

@@ -13,12 +13,14 @@
 //! | `units` | dimensions of expressions, and which are needed where |
 //! | `checks` | rules among fields, mass data, coordinates and speeds, bodies, constraints and forces |
 //! | `robots` | files that describe robots → clauses |
+//! | `locks` | coordinates that are held → definitions of their names |
 //! | `modes` | files of modes → what their clauses give |
 //! | `assembly` | clauses and fields put together: every check in order, then the model |
 
 mod assembly;
 mod checks;
 mod language;
+mod locks;
 #[cfg(feature = "modes")]
 mod modes;
 mod names;

@@ -6,6 +6,7 @@ use crate::model::language::fields::Reader;
 use crate::model::language::robots::Format;
 use crate::model::language::struct_clauses::Clauses;
 use crate::model::language::{fields, nesting, struct_clauses};
+use crate::model::locks;
 #[cfg(feature = "modes")]
 use crate::model::modes;
 use crate::model::names::inputs;
@@ -44,6 +45,7 @@ pub fn parse(input: &DeriveInput) -> Result<Model, Error> {
         let reader = fields::read(named, &input.generics, clauses.own, &mut context);
         let described = robot_of_file(&mut clauses, &reader, &mut context);
         let tracked = modes_of_files(&mut clauses, &mut context);
+        locks::apply(&mut clauses.statements, &mut context);
         inputs::name(&mut clauses.statements, &reader.fields, &mut context);
         let mut model = assembly::model(input, clauses, reader, &mut context)?;
         check_python(&model.item, &input.generics, &mut context);

@@ -396,14 +396,15 @@ fn constraints_solved_for() {
     check(&SVector::<f64, 3>::zeros(), kernels!(Sleigh));
 }
 
-/// Every function that expressions have, on a cart with a double pendulum.
+/// Every function that expressions have, on a cart with a double pendulum, of which a joint is locked.
 #[derive(GaussDynamics)]
 #[gauss(
     linearize(parameters, inverse),
-    coordinates(x, a, b),
+    coordinates(x, a, b, c),
+    lock(c = bent),
     particle(mass = 2, position = [x, 0, 0]),
     body(upper, position = [x, 0, 0], rotation = rotation_y(a)),
-    body(lower, parent = upper, position = [0, 0, -l], rotation = rotation_y(b)),
+    body(lower, parent = upper, position = [0.1 * c, 0, -l], rotation = rotation_y(b + c)),
     input(push),
     drive(x = push * smooth_step(x, -1, 1) - clamp(3 * dx, -1, 1) + signum(x), a = max(a, 0.2) * abs(da) - min(x, t)),
     drive(b = atan2(b, 2 + x * x) + sqrt(1 + da * da) + ln(3 + sin(b)) + hypot(b, 1) + tan(0.3 * b)),
@@ -417,11 +418,12 @@ struct Cart<T> {
     #[gauss(gravity)]
     g: T,
     l: T,
+    bent: T,
 }
 
 impl<T: Real> Cart<T> {
     fn sample(n: &mut Numbers<'_, T>) -> Self {
-        Self { upper: rigid(n, 1.0, 0.2), lower: rigid(n, 0.5, -0.3), g: n(9.81), l: n(0.8) }
+        Self { upper: rigid(n, 1.0, 0.2), lower: rigid(n, 0.5, -0.3), g: n(9.81), l: n(0.8), bent: n(0.6) }
     }
 }
 
@@ -500,7 +502,7 @@ fn parameters_have_the_names_of_their_fields() {
         ]
     );
     assert_eq!(names[5], "upper.inertia[1][0]");
-    assert_eq!(names[20..], ["g", "l"]);
+    assert_eq!(names[20..], ["g", "l", "bent"]);
     let names = FreeEulerKernel::<f64>::PARAMETERS;
     assert_eq!(names[names.len() - 9..], ["g", "k", "c", "d[0]", "d[1]", "d[2]", "d[3]", "d[4]", "d[5]"]);
 }
@@ -511,7 +513,7 @@ fn parameters_have_the_names_of_their_fields() {
 fn patterns_tell_what_matters() {
     let column = |name: &str| CartKernel::<f64>::PARAMETERS.iter().position(|known| *known == name).unwrap();
     let matters = |name: &str| CartKernel::<f64>::PARAMETER_PATTERN.iter().any(|row| row[column(name)]);
-    for name in ["upper.mass", "upper.center_of_mass[0]", "lower.inertia[1][1]", "g", "l"] {
+    for name in ["upper.mass", "upper.center_of_mass[0]", "lower.inertia[1][1]", "g", "l", "bent"] {
         assert!(matters(name), "{name}");
     }
     for name in ["upper.center_of_mass[1]", "upper.inertia[0][0]", "lower.inertia[2][1]"] {

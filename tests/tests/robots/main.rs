@@ -4,6 +4,7 @@
 mod asked;
 mod balls;
 mod ground;
+mod locks;
 mod mechanisms;
 mod placed_robots;
 mod quadrotor;

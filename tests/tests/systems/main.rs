@@ -13,6 +13,7 @@ mod elements_with_states;
 mod flexible;
 mod frames;
 mod joint_friction;
+mod locks;
 mod own_coordinates;
 mod parameters_of_systems;
 mod sensors;

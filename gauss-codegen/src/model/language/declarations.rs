@@ -46,6 +46,8 @@ pub struct Definition {
     pub name: Ident,
     /// One that could not be read is kept, so that its name is known.
     pub expression: Option<Expression>,
+    /// The name is that of a coordinate that is held at the value, or of its speed.
+    pub locked: bool,
 }
 
 const COORDINATES: &Table<CoordinateKind> = &[("Pose", CoordinateKind::Pose), ("Rotation", CoordinateKind::Rotation)];
@@ -364,9 +366,21 @@ pub fn read_definitions(clause: &Clause, context: &mut Context) -> Vec<Definitio
     let (equations, _) = arguments::arguments(group, Owner::Define, context);
     let read = |equation: &Clause, context: &mut Context| {
         let name = arguments::name(&equation.name, "definition", context)?;
-        Some(Definition { name, expression: value(equation, "…", context) })
+        Some(Definition { name, expression: value(equation, "…", context), locked: false })
     };
     equations.iter().filter_map(|equation| read(equation, context)).collect()
+}
+
+/// `lock(elbow = 0.5, finger = opening)`: coordinates, or joints of a file, each with the value that it is held at.
+pub fn read_locks(clause: &Clause, context: &mut Context) -> Vec<Definition> {
+    const PLACE: Owner = Owner::Action { word: "lock", example: "a coordinate with its value such as `elbow = 0.5`" };
+    let Some(group) = brackets(clause, "elbow = 0.5", context) else { return Vec::new() };
+    let (arguments, _) = arguments::arguments(group, PLACE, context);
+    let read = |argument: &Clause, context: &mut Context| {
+        let expression = value(argument, "0.5", context);
+        Definition { name: argument.name.clone(), expression, locked: true }
+    };
+    arguments.iter().map(|argument| read(argument, context)).collect()
 }
 
 /// `waive(triangle_inequality)`, of all bodies, or `waive(triangle_inequality = arm)`.

@@ -62,6 +62,10 @@ pub struct Statements {
     /// Coordinates with the inertia of their rates.
     pub armatures: Vec<(Ident, Expression)>,
     pub definitions: Vec<Definition>,
+    /// Coordinates that are held, each with its value.
+    pub locks: Vec<Definition>,
+    /// Coordinates that joints of a file would have, which are held where it is read.
+    pub locked_in_file: Vec<Ident>,
     pub attractions: Vec<ForceClause>,
     pub medium: Option<(Ident, Option<Expression>)>,
     /// Mass data of the body without a name, and gravity.
@@ -99,6 +103,7 @@ pub enum Statement {
     Element(&'static Row),
     Limit,
     Armature,
+    Lock,
     Modes,
     Define,
     Medium,
@@ -127,8 +132,9 @@ const DECLARED: [(&str, Statement); 16] = [
     ("input", Statement::Input),
     ("states", Statement::States),
 ];
-const OTHERS: [(&str, Statement); 9] = [
+const OTHERS: [(&str, Statement); 10] = [
     ("armature", Statement::Armature),
+    ("lock", Statement::Lock),
     ("modes", Statement::Modes),
     ("medium", Statement::Medium),
     (ATTRACTION.word, Statement::CentralGravity),
@@ -221,6 +227,7 @@ impl Statements {
             | Statement::Input
             | Statement::States
             | Statement::Define
+            | Statement::Lock
             | Statement::Function
             | Statement::Table
             | Statement::Waive
@@ -309,6 +316,11 @@ impl Statements {
                 let definitions = declarations::read_definitions(clause, context);
                 self.note_read(!definitions.is_empty(), statement);
                 self.definitions.extend(definitions);
+            }
+            Statement::Lock => {
+                let locks = declarations::read_locks(clause, context);
+                self.note_read(!locks.is_empty(), statement);
+                self.locks.extend(locks);
             }
             Statement::Waive => self.formal.extend(declarations::read_waived(clause, context)),
             Statement::Limit => {

@@ -70,8 +70,8 @@ const GEAR: &str = "a gear is one coordinate for both: `rotation = rotation_z(n 
                     it is `armature(angle = a)`";
 const ROTOR: &str = "a wheel is a body that a coordinate turns: `coordinates(angle), body(wheel, parent = hull, \
                      rotation = rotation_z(angle), mass = m, inertia = [a, a, c])`";
-const LOCK: &str = "a coordinate is held by `constraint(position = angle - a)`; one that never moves is none, and a number or a \
-                    field stands in its place: `rotation = rotation_z(a)`";
+const LOCK: &str = "a coordinate that never moves is left out by `lock(angle = a)`; with the force that holds it, it is held by \
+                    `constraint(position = angle - a)`";
 const MODES: &str = "a body that bends has modes: `body(panel, parent = hull), modes(panel, coordinates = [a, b], \
                      file = \"panel.json\")`";
 const ENERGY: &str = "the kinetic energy follows from bodies and particles; a potential is `potential = …`";
@@ -211,7 +211,6 @@ pub const FOR_CLAUSES: &Table<&'static str> = &[
     ("coulomb", DRY_FRICTION),
     ("stiction", DRY_FRICTION),
     ("limits", RANGE),
-    ("lock", LOCK),
     ("locked", LOCK),
     ("freeze", LOCK),
     ("joint_limits", RANGE),

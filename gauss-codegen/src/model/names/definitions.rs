@@ -2,7 +2,7 @@
 //! what it may contain depends on that. Afterwards its tree takes the place of its name: behind the model only
 //! printed equations know of it.
 
-use super::places::ExpressionPlace;
+use super::places::{ExpressionPlace, Holder};
 use super::scope::{Meaning, Scope};
 use super::{expressions, kinds};
 use crate::model::language::context::Context;
@@ -21,9 +21,11 @@ const LIMIT: usize = 100_000;
 /// Checks every definition by itself, in order, and tells the scope what each stands for.
 pub fn check(definitions: &[Definition], scope: &mut Scope, context: &mut Context) {
     refuse_circles(definitions, scope, context);
-    for Definition { expression, .. } in definitions {
+    let constant = ExpressionPlace::Constant { word: "value", of: Holder::Lock };
+    for Definition { expression, locked, .. } in definitions {
         let expression = expression.as_ref();
-        let well = expression.and_then(|e| kinds::check(e, ExpressionPlace::Definition, scope, context).and(Some(e)));
+        let place = if *locked { constant } else { ExpressionPlace::Definition };
+        let well = expression.and_then(|e| kinds::check(e, place, scope, context).and(Some(e)));
         scope.define(well.cloned());
     }
 }
@@ -101,7 +103,7 @@ fn shortest_circle(start: usize, named: &[Vec<(usize, Ident)>]) -> Option<Vec<us
 pub fn check_sizes(statements: &Statements, context: &mut Context) -> bool {
     let definitions = &statements.definitions;
     let mut written = DefinitionSizes { known: HashMap::new(), total: 0 };
-    for Definition { name, expression } in definitions {
+    for Definition { name, expression, .. } in definitions {
         let (size, depth) = expression.as_ref().map_or((0, 0), |expression| written.measure(expression));
         if !written.accepts((size, depth), name.span(), &format!("`{name}`"), context) {
             return false;
@@ -156,7 +158,7 @@ pub fn unused(statements: &Statements, all: &[&Expression]) -> Vec<Ident> {
     for expression in all.iter().copied().chain(definitions.iter().filter_map(|other| other.expression.as_ref())) {
         expression.put_names(&mut named);
     }
-    let names = definitions.iter().map(|definition| &definition.name);
+    let names = definitions.iter().filter(|definition| !definition.locked).map(|definition| &definition.name);
     names.filter(|name| !named.contains(&word(name))).cloned().collect()
 }
 

@@ -14,6 +14,7 @@ use proc_macro2::Ident;
 pub enum Holder {
     Element(&'static Row),
     Armature,
+    Lock,
     Modes,
     AddedMass,
     Inertia,
@@ -26,6 +27,7 @@ impl Holder {
         match self {
             Holder::Element(row) => words::a(row.noun),
             Holder::Armature => "an armature".into(),
+            Holder::Lock => "a lock".into(),
             Holder::Modes => "modes".into(),
             Holder::AddedMass => "an added mass".into(),
             Holder::Inertia => "an inertia".into(),
@@ -37,7 +39,7 @@ impl Holder {
     fn constant(self) -> String {
         match self {
             Holder::Element(_) | Holder::Contact => format!("a constant of {}", self.noun()),
-            Holder::Armature | Holder::Modes | Holder::AddedMass | Holder::Inertia => self.noun(),
+            Holder::Armature | Holder::Lock | Holder::Modes | Holder::AddedMass | Holder::Inertia => self.noun(),
         }
     }
 }

@@ -8,8 +8,9 @@ use syn::ext::IdentExt;
 
 use super::drives::{self, RobotInput};
 use super::joints::ExpressionWriter;
-use gauss_robots::description::{Description, Fault, Inertial, Joint, JointKind, Note};
+use gauss_robots::description::{Description, Drive, Fault, Inertial, Joint, JointKind, Note};
 
+use super::locks::{self, LockedJoint};
 use super::names::RobotNames;
 use super::source;
 
@@ -48,7 +49,7 @@ pub fn compose(
         let faults = |faults: Vec<Fault>| all_located(&text.names(), &faults);
         let description = source::read(file.format, &text).map_err(faults)?;
         let structure = Structure::new(&description).map_err(faults)?;
-        let mut robot = Robot::new(file, clauses, reader, &description, &structure);
+        let mut robot = Robot::new(file, (clauses, reader), (&description, structure), statements, context);
         robot.cut(reactions, context);
         statements.joints_of_file = robot.names_of_joints();
         statements.links_of_file = robot.renamed_links();
@@ -74,12 +75,13 @@ pub fn compose(
 pub struct Robot<'a> {
     pub clauses: &'a RobotClauses,
     pub description: &'a Description,
-    pub structure: &'a Structure,
+    pub structure: Structure,
     pub writer: ExpressionWriter,
     /// The pose of the root, if it moves.
     base: Option<Ident>,
     /// Coordinates of each joint; none of those that are fixed or follow another.
     pub coordinates: Vec<Vec<CoordinateClause>>,
+    pub locked: Vec<LockedJoint>,
     pub inputs: Vec<RobotInput>,
     pub links: Vec<Ident>,
     /// The mass data of the link are those of a field.
@@ -94,10 +96,10 @@ pub struct Robot<'a> {
 impl<'a> Robot<'a> {
     fn new(
         file: &File,
-        clauses: &'a RobotClauses,
-        reader: &Reader<'_>,
-        description: &'a Description,
-        structure: &'a Structure,
+        (clauses, reader): (&'a RobotClauses, &Reader<'_>),
+        (description, mut structure): (&'a Description, Structure),
+        statements: &mut Statements,
+        context: &mut Context,
     ) -> Self {
         let words = description.joints.iter().map(|joint| &joint.name);
         let mut names = RobotNames::new(file.span, words.chain(description.links.iter().map(|link| &link.name)));
@@ -105,9 +107,11 @@ impl<'a> Robot<'a> {
         let base = floating.then(|| names.chosen(BASE));
         let own = |index: usize| structure.coupling_of[index].joint == index;
         let all = || description.joints.iter().enumerate();
-        let coordinates: Vec<Vec<CoordinateClause>> =
+        let mut coordinates: Vec<Vec<CoordinateClause>> =
             all().map(|(k, joint)| if own(k) { coordinates(joint, &mut names) } else { Vec::new() }).collect();
-        let inputs = drives::inputs(description, &coordinates, clauses.inputs, &mut names);
+        let locked = locks::found((description, &mut structure), clauses, &mut coordinates, statements, context);
+        let is_held = |drive: &Drive| locks::is_held((description, &structure), &locked, drive);
+        let inputs = drives::inputs((description, &is_held), &coordinates, clauses.inputs, &mut names);
         let links: Vec<Ident> =
             description.links.iter().map(|link| names.identifier(&link.name, "link", link.at)).collect();
         let plays = |field: &ReadField<'_>, role: Role| field.role.as_ref().is_some_and(|claim| claim.role == role);
@@ -117,7 +121,8 @@ impl<'a> Robot<'a> {
         let mut notes = description.notes.clone();
         notes.append(&mut names.notes);
         notes.extend(drives::notes(description, &inputs));
-        notes.extend(drives::lost(description, &inputs, clauses.inputs));
+        notes.extend(drives::lost((description, &is_held), &inputs, clauses.inputs));
+        notes.extend(locks::notes((description, &structure), &locked));
         let writer = ExpressionWriter { span: file.span };
         Robot {
             clauses,
@@ -126,10 +131,11 @@ impl<'a> Robot<'a> {
             writer,
             base,
             coordinates,
+            locked,
             inputs,
             links,
             in_field,
-            cut: vec![false; structure.owner_of.len()],
+            cut: vec![false; description.links.len()],
             gravity_in_field,
             notes,
             names,
@@ -202,10 +208,10 @@ impl<'a> Robot<'a> {
     }
 
     /// Whether the mass data of a link are not added to those of the link that it is fixed to: one of the two is a
-    /// field, or the reaction between them is wanted.
+    /// field, the reaction between them is wanted, or a joint between them is held at a parameter.
     fn is_apart(&self, link: usize) -> bool {
         let owner = self.structure.owner_of[link];
-        self.in_field[link] || self.in_field[owner] || self.cut[owner]
+        self.in_field[link] || self.in_field[owner] || self.cut[owner] || self.is_placed_by_parameter(link)
     }
 
     /// The mass data of a link and of all links fixed to it, but for those in fields.
@@ -282,10 +288,11 @@ impl<'a> Robot<'a> {
         }
         let root = &self.description.links[self.structure.root];
         let remedy = if file.format == Format::Urdf { "write `base = floating`, or " } else { "" };
-        let unread = self.notes.iter().find(|note| note.ignored.is_some());
+        let still = if self.locked.is_empty() { "no joint does" } else { "all joints are locked or fixed" };
+        let unread = self.notes.iter().find(|note| note.ignored.is_some() && self.locked.is_empty());
         let unread = unread.map(|note| format!(" ({})", note.text)).unwrap_or_default();
         let message =
-            format!("nothing moves: no joint does, and the root `{}` is held{unread}; {remedy}add a joint", root.name);
+            format!("nothing moves: {still}, and the root `{}` is held{unread}; {remedy}add a joint", root.name);
         vec![Fault { at: root.at, message }]
     }
 
@@ -313,6 +320,7 @@ impl<'a> Robot<'a> {
         statements.bodies.splice(0..0, bodies);
         self.add_armatures(statements);
         let constraints = self.constraints(&text.names());
+        self.notes.extend(self.broken_relations());
         statements.constraints_of_file = constraints.len();
         statements.constraints.splice(0..0, constraints);
         let made = self.touching(context);
@@ -408,10 +416,18 @@ impl<'a> Robot<'a> {
         (speeds, rates)
     }
 
-    /// The coordinates that a joint moves by, those of the one that it follows, from a `start`.
+    /// The coordinates that a joint moves by, those of the one that it follows, or what they are held at, from a
+    /// `start`.
     pub fn values(&self, joint: usize, start: f64) -> Vec<Expression> {
         let coupling = self.structure.coupling_of[joint];
         let coupling = Coupling { offset: coupling.offset - start, ..coupling };
+        if let Some(lock) = self.lock_of(joint) {
+            return vec![match lock.number {
+                Some(_) if (coupling.multiplier, coupling.offset) == (1.0, 0.0) => lock.value.clone(),
+                Some(number) => self.writer.number(coupling.multiplier * number + coupling.offset),
+                None => self.writer.coupled(&lock.ident, &coupling),
+            }];
+        }
         match self.coordinates[coupling.joint].as_slice() {
             [leader] => vec![self.writer.coupled(&leader.ident, &coupling)],
             all => all.iter().map(|q| self.writer.name(&q.ident)).collect(),

@@ -39,6 +39,9 @@ impl Robot<'_> {
         let value = |state: u32, name: &str| {
             let index = joints.iter().position(|joint| joint.name == name)?;
             let coupling = self.structure.coupling_of[index];
+            if let Some(number) = self.lock_of(index).and_then(|lock| lock.number) {
+                return Some(coupling.multiplier * number + coupling.offset - joints[index].reference);
+            }
             let q = (f64::from(state) + 0.5) * (1.0 + 0.618_033_988_749_894_9 * (coupling.joint as f64 + 1.0));
             Some(coupling.multiplier * (q.fract() - 0.5) + coupling.offset - joints[index].reference)
         };

@@ -22,9 +22,9 @@ pub enum DriveTarget {
     Drive(usize),
 }
 
-/// The inputs in the order of the file; of efforts that of the joints.
+/// The inputs in the order of the file; of efforts that of the joints. Drives that are held have none.
 pub fn inputs(
-    description: &Description,
+    (description, is_held): (&Description, &dyn Fn(&Drive) -> bool),
     coordinates: &[Vec<CoordinateClause>],
     asked: Option<Inputs>,
     names: &mut RobotNames,
@@ -34,7 +34,7 @@ pub fn inputs(
         |joint: &str| description.drives.iter().any(|drive| drive.along.iter().any(|(name, _)| name == joint));
     match asked.unwrap_or(usual) {
         Inputs::None => Vec::new(),
-        Inputs::Actuators => controls(description, |_| true, names),
+        Inputs::Actuators => controls(description, |drive| !is_held(drive), names),
         asked => {
             let joints = description.joints.iter().enumerate().zip(coordinates);
             let own = joints.filter(|((_, joint), own)| joint.kind.is_scalar() && own.len() == 1);
@@ -103,7 +103,11 @@ pub fn notes(description: &Description, inputs: &[RobotInput]) -> Vec<Note> {
 }
 
 /// Drives of joints that have no effort of their own for an input, because they mimic others.
-pub fn lost(description: &Description, inputs: &[RobotInput], asked: Option<Inputs>) -> Vec<Note> {
+pub fn lost(
+    (description, is_held): (&Description, &dyn Fn(&Drive) -> bool),
+    inputs: &[RobotInput],
+    asked: Option<Inputs>,
+) -> Vec<Note> {
     if matches!(asked, Some(Inputs::None | Inputs::Actuators)) {
         return Vec::new();
     }
@@ -116,7 +120,7 @@ pub fn lost(description: &Description, inputs: &[RobotInput], asked: Option<Inpu
     let is_lost = |drive: &&Drive| {
         let joints = description.joints.iter().filter(|joint| drive.along.iter().any(|(name, _)| *name == joint.name));
         let mimics = joints.clone().any(|joint| joint.mimic.is_some());
-        mimics && !joints.into_iter().any(|joint| has_input(&joint.name))
+        mimics && !is_held(drive) && !joints.into_iter().any(|joint| has_input(&joint.name))
     };
     let told = |drive: &Drive| {
         let text = format!(

@@ -112,7 +112,7 @@ impl ExpressionWriter {
     pub fn placed(self, joint: &Joint, coordinates: &[Expression]) -> [Option<Expression>; 2] {
         let fixed = self.constant(&joint.rotation);
         match (joint.kind, coordinates) {
-            (JointKind::Turning, [angle]) => {
+            (JointKind::Turning, [angle]) if !angle.is_zero() => {
                 let turns = self.about_direction(&joint.axis, angle.clone());
                 [self.triple(&joint.position), self.product(fixed.into_iter().chain(turns).collect())]
             }

@@ -54,7 +54,8 @@ impl Robot<'_> {
             limited.extend(found.map(|(along, limits)| LimitedMotion { at, along, limits, coordinate: None, called }));
         };
         for tendon in &self.description.tendons {
-            add(tendon.at, self.length(&tendon.along), tendon.limits, named(&tendon.name));
+            let along = self.length(&tendon.along).filter(|_| !self.is_still(&tendon.along));
+            add(tendon.at, along, tendon.limits, named(&tendon.name));
         }
         for cable in &self.description.cables {
             let length = self.moving_parts(cable).map(|parts| self.length_of(&parts));

@@ -8,6 +8,7 @@
 //! | `joints` | a joint → position and rotation of its link |
 //! | `clauses` | a description → clauses, before those of the struct |
 //! | `drives`, `efforts`, `turning`, `ranges` | inputs; what they do; in balls and free joints; how much of it at most |
+//! | `locks`, `held` | joints that are held; what follows for the rest of the file |
 //! | `limits` | those of joints and tendons; dry friction of joints |
 //! | `ground`, `pairs`, `touching` | planes and what touches them; links that touch each other; contacts of shapes |
 //! | `constant_heights` | what stays clear of a plane, whatever moves |
@@ -20,10 +21,12 @@ mod constant_heights;
 mod drives;
 mod efforts;
 mod ground;
+mod held;
 mod inertias;
 mod joints;
 mod laws;
 mod limits;
+mod locks;
 mod names;
 mod pairs;
 mod ranges;

@@ -20,7 +20,9 @@ impl Robot<'_> {
         let closures = self.description.closures.iter().flat_map(|closure| {
             self.closure(closure).unwrap_or_default().into_iter().map(|expression| clause(closure.at, expression))
         });
-        let polynomials = self.description.polynomials.iter();
+        let still = |along: &Vec<(String, f64)>| self.is_still(along);
+        let moves = |relation: &&Polynomial| !(still(&relation.along) && relation.of.as_ref().is_none_or(still));
+        let polynomials = self.description.polynomials.iter().filter(moves);
         let polynomials =
             polynomials.filter_map(|polynomial| Some(clause(polynomial.at, self.polynomial(polynomial)?)));
         closures.chain(polynomials).collect()

@@ -120,7 +120,9 @@ impl Robot<'_> {
         let writer = self.writer;
         let (mut forces, mut notes) = (Vec::new(), Vec::new());
         let springs = |tendon: &&Tendon| tendon.stiffness > 0.0 || tendon.damping > 0.0;
-        for tendon in self.description.tendons.iter().filter(|tendon| springs(tendon) || tendon.limits.is_some()) {
+        let acts = |tendon: &&Tendon| springs(tendon) || tendon.limits.is_some();
+        let moves = |tendon: &&Tendon| !self.is_still(&tendon.along);
+        for tendon in self.description.tendons.iter().filter(acts).filter(moves) {
             let Some(along) = self.length(&tendon.along) else {
                 notes.push(Note::ignored(
                     tendon.at,
@@ -158,7 +160,7 @@ impl Robot<'_> {
             notes.extend(told_of_energy(joint.at, joint.nonlinear));
         }
         for tendon in &self.description.tendons {
-            let along = self.length(&tendon.along);
+            let along = self.length(&tendon.along).filter(|_| !self.is_still(&tendon.along));
             let Some(force) = along.and_then(|along| self.bent(tendon.nonlinear, tendon.rest, &along)) else {
                 continue;
             };

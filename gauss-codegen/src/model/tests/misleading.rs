@@ -22,11 +22,11 @@ fn only(source: &str, expected: &str) {
 
 #[test]
 fn what_is_held() {
-    for clause in ["lock(joint = a)", "lock(a)", "locked(a = 0.3)"] {
+    for clause in ["freeze(joint = a)", "locked(a = 0.3)"] {
         let word = clause.split('(').next().unwrap();
         let held = format!(
-            "unknown clause `{word}`; a coordinate is held by `constraint(position = angle - a)`; one that never moves is \
-             none, and a number or a field stands in its place: `rotation = rotation_z(a)`"
+            "unknown clause `{word}`; a coordinate that never moves is left out by `lock(angle = a)`; with the force that \
+             holds it, it is held by `constraint(position = angle - a)`"
         );
         only(&arm(clause), &held);
     }

@@ -2,6 +2,7 @@
 
 mod drives;
 mod ground;
+mod locks;
 #[cfg(feature = "mjcf")]
 mod mjcf;
 mod self_contact;

@@ -10,6 +10,7 @@ mod expressions;
 mod forces;
 mod frames;
 mod groups;
+mod locks;
 mod names;
 mod states;
 mod two_bodies;
