@@ -3,7 +3,7 @@
 
 use super::clauses::Robot;
 use super::locks::LockedJoint;
-use gauss_robots::description::{Note, Polynomial};
+use gauss_robots::description::{Closure, Note, Polynomial};
 
 impl Robot<'_> {
     /// The lock of a joint, or of the one that it follows.
@@ -19,7 +19,16 @@ impl Robot<'_> {
         !along.is_empty() && along.iter().all(held)
     }
 
-    /// Relations of locked joints alone that their values do not meet.
+    /// Whether locked joints hold two links to each other that are joined by more.
+    pub fn is_held_together(&self, closure: &Closure) -> bool {
+        let owner = |name: &String| {
+            let link = self.description.links.iter().position(|link| link.name == *name)?;
+            Some(self.structure.owner_of[link])
+        };
+        !self.locked.is_empty() && owner(&closure.links[0]) == owner(&closure.links[1])
+    }
+
+    /// Relations of locked joints alone: those that their values do not meet, and loops, whose points may be apart.
     pub fn broken_relations(&self) -> Vec<Note> {
         let sum = |along: &Vec<(String, f64)>| {
             let part = |(name, factor): &(String, f64)| {
@@ -39,7 +48,16 @@ impl Robot<'_> {
             // Roundings of a few products and sums.
             ((value - wanted).abs() > 16.0 * f64::EPSILON * size).then(|| Note::ignored(relation.at, "equality", text))
         };
-        self.description.polynomials.iter().filter_map(broken).collect()
+        let held = |closure: &Closure| {
+            let text = format!(
+                "`{}` and `{}` are held to each other by locked joints: that they are joined is left out, whether their \
+                 points meet there or not",
+                closure.links[0], closure.links[1]
+            );
+            self.is_held_together(closure).then(|| Note::ignored(closure.at, "equality", text))
+        };
+        let relations = self.description.polynomials.iter().filter_map(broken);
+        relations.chain(self.description.closures.iter().filter_map(held)).collect()
     }
 
     /// Whether between a link and the one that it moves as one with some joint is held at a parameter.

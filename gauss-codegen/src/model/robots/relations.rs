@@ -17,7 +17,8 @@ impl Robot<'_> {
             place: Some(located(names, at, "")),
             span: self.writer.span,
         };
-        let closures = self.description.closures.iter().flat_map(|closure| {
+        let open = self.description.closures.iter().filter(|closure| !self.is_held_together(closure));
+        let closures = open.flat_map(|closure| {
             self.closure(closure).unwrap_or_default().into_iter().map(|expression| clause(closure.at, expression))
         });
         let still = |along: &Vec<(String, f64)>| self.is_still(along);

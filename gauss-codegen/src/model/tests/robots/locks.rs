@@ -142,6 +142,15 @@ fn relations_of_locked_joints() {
         told(&broken)
     );
     let start = text.find("<tendon>").expect("tendons");
+    let joined = "<equality><connect body1=\"a\" body2=\"c\" anchor=\"1 0 0\"/></equality></mujoco>";
+    let file = Scratch::called(&(text[..start].to_owned() + joined), "xml");
+    let of = |clauses: &str| read(&file.of(clauses, "")).unwrap_or_else(|error| panic!("{error}"));
+    let one = of(", limits = none, lock(q = 0.3)");
+    assert_eq!((names(&one), one.constraints.len()), (vec!["p".into(), "r".into()], 1));
+    let both = of(", limits = none, lock(q = 0.3, r = 0)");
+    assert_eq!((names(&both), both.constraints.len()), (vec!["p".into()], 0));
+    assert!(told(&both).iter().any(|text| text.contains("`a` and `c` are held to each other")), "{:?}", told(&both));
+    let start = text.find("<tendon>").expect("tendons");
     let balls = text[..start].replace("name=\"q\" axis=\"0 0 1\"", "name=\"q\" type=\"ball\"") + "</mujoco>";
     let file = Scratch::called(&balls, "xml");
     let found = read(&file.of(", limits = none, lock(q = 0)", "")).err().map(|error| error.to_string());

@@ -101,6 +101,30 @@ fn mistakes_of_locks() {
     );
 }
 
+/// Clauses about a locked coordinate alone are about nothing that moves, as their own messages say, some at the value.
+#[test]
+fn clauses_about_locked_coordinates_alone() {
+    for (clause, token, told) in [
+        ("range(knee, from = 0, to = 1)", "0.3", "the range is that of nothing that moves"),
+        ("constraint(position = knee - 0.3)", "constraint", "the constraint names nothing that moves"),
+        ("constraint(velocity = rate(knee))", "constraint", "the constraint names nothing that moves"),
+        ("spring(along = knee, stiffness = 3)", "spring", "the extent of the spring does not change"),
+        ("stop(along = knee, least = 0, stiffness = 3, width = 0.1)", "stop", "the extent of the stop does not change"),
+        ("friction(along = knee, viscous = 3)", "friction", "the extent of the friction law does not change"),
+        ("contact(x, gap = knee)", "0.3", "the gap names nothing that moves"),
+        ("damping = rate(knee) * rate(knee)", "damping", "the dissipation function contains no velocity"),
+    ] {
+        let source = arm(&format!("lock(knee = 0.3), {clause}"), "");
+        let error = super::super::read(&source).err().expect(clause);
+        let found: Vec<String> = error.clone().into_iter().map(|mistake| mistake.to_string()).collect();
+        let [one] = found.as_slice() else { panic!("{clause}: {found:?}") };
+        assert!(one.starts_with(told), "{clause}: {one}");
+        assert_eq!(error.span().source_text().as_deref(), Some(token), "{clause}");
+    }
+    // A potential of it alone is a constant, as any other.
+    assert_eq!(coordinates(&arm("lock(knee = 0.3), potential = knee * knee", "")), ["slide", "hip"]);
+}
+
 #[test]
 fn rotations_poses_and_modes_are_not_locked() {
     let scene = "#[gauss(coordinates(x, ball: Rotation, base: Pose), particle(mass = 1, position = [x, 0, 0]), \
