@@ -2,8 +2,8 @@
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::integrate::{
-    Control, IntegrationError, IntegrationErrorKind, OneStep, Problem, Rates, Rkmk, RunPart, State, StepCallback,
-    StepStatistics, Tableau,
+    Control, IntegrationError, IntegrationErrorKind, OneStep, Problem, Progress, Rates, Rkmk, RunPart, State,
+    StepCallback, StepStatistics, Tableau,
 };
 use gauss_runtime::system::GaussSystem;
 
@@ -73,67 +73,78 @@ where
 }
 
 impl<S: GaussSystem<Scalar = f64>> Control<S> for Order8 {
-    fn drive<P: Problem<System = S>>(
+    /// The length of the next step, the steps so far, and the most of them.
+    type StepMemory = (f64, u64, u64);
+
+    fn start<P: Problem<System = S>>(
         &self,
         problem: &P,
-        start: State<S>,
+        state: State<S>,
         end: f64,
         limit: u64,
         emit: &mut StepCallback<'_, S>,
-    ) -> Result<State<S>, IntegrationError> {
-        let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
-        let mut state = start;
-        let mut rates = problem.rates(&state);
+    ) -> Result<Progress<S, Self::StepMemory>, IntegrationError> {
+        let rates = problem.rates(&state);
         if !rates.is_finite() {
-            return Err(stopped(&state, IntegrationErrorKind::NonFinite { part: RunPart::Derivative }));
-        }
-        if emit(&state, &rates, StepStatistics::default()).is_break() {
-            return Ok(state);
+            let kind = IntegrationErrorKind::NonFinite { part: RunPart::Derivative };
+            return Err(IntegrationError::at(problem, &state, kind));
         }
         // A first step far too short costs a few steps: it grows tenfold each time.
         let turn = S::Configuration::increment_angle(&rates.configuration);
-        let mut length = self.fixed.unwrap_or(1e-3 / turn.max(1.0));
-        for _ in 0..limit {
-            let left = end - state.t;
-            let last = length >= 0.999 * left;
-            let h = if last { left } else { length };
+        let length = self.fixed.unwrap_or(1e-3 / turn.max(1.0));
+        Ok(Progress::new((state, rates), end, (length, 0, limit), emit))
+    }
+
+    fn advance<P: Problem<System = S>>(
+        &self,
+        problem: &P,
+        run: &mut Progress<S, Self::StepMemory>,
+        emit: &mut StepCallback<'_, S>,
+    ) -> Result<(), IntegrationError> {
+        let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
+        let Progress { state, rates, end, ended, memory: (length, steps, limit) } = run;
+        while *steps < *limit {
+            *steps += 1;
+            let left = *end - state.t;
+            let last = *length >= 0.999 * left;
+            let h = if last { left } else { *length };
             if state.t + h == state.t {
-                return Err(stopped(&state, IntegrationErrorKind::StepTooSmall { step: h }));
+                return Err(stopped(state, IntegrationErrorKind::StepTooSmall { step: h }));
             }
-            let (step, error) = match self.method.step(problem, &state, &rates, h) {
+            let (step, error) = match self.method.step(problem, state, rates, h) {
                 Ok(step) => {
-                    let error = ratio(&state, &step.state, &step.error) / self.tolerance;
+                    let error = ratio(state, &step.state, &step.error) / self.tolerance;
                     (step, error)
                 }
-                Err(kind) if self.fixed.is_some() => return Err(stopped(&state, kind)),
+                Err(kind) if self.fixed.is_some() => return Err(stopped(state, kind)),
                 Err(kind) => {
-                    length = 0.25 * h;
-                    if state.t + length == state.t {
-                        return Err(stopped(&state, kind));
+                    *length = 0.25 * h;
+                    if state.t + *length == state.t {
+                        return Err(stopped(state, kind));
                     }
                     continue;
                 }
             };
             if self.fixed.is_none() {
-                length = h * (0.9 * error.powf(-1.0 / 6.0)).clamp(0.2, 10.0);
+                *length = h * (0.9 * error.powf(-1.0 / 6.0)).clamp(0.2, 10.0);
                 if error > 1.0 {
                     continue;
                 }
             }
-            let before = state;
-            state = step.state;
+            let mut next = step.state;
             if last {
-                state.t = end;
+                next.t = *end;
             }
-            state = projected(problem, state).map_err(|kind| stopped(&before, kind))?;
-            rates = problem.rates(&state);
-            if !rates.is_finite() {
-                return Err(stopped(&before, IntegrationErrorKind::NonFinite { part: RunPart::Step }));
+            next = projected(problem, next).map_err(|kind| stopped(state, kind))?;
+            let slopes = problem.rates(&next);
+            if !slopes.is_finite() {
+                return Err(stopped(state, IntegrationErrorKind::NonFinite { part: RunPart::Step }));
             }
-            if emit(&state, &rates, StepStatistics::default()).is_break() || last {
-                return Ok(state);
+            (*state, *rates, *ended) = (next, slopes, last);
+            if emit(state, rates, StepStatistics::default()).is_break() || last {
+                return Ok(());
             }
         }
-        Err(stopped(&state, IntegrationErrorKind::TooManySteps { limit }))
+        Err(stopped(state, IntegrationErrorKind::TooManySteps { limit: *limit }))
     }
 }

@@ -10,7 +10,7 @@
 //! | [`rosenbrock`] | a linearly implicit method of order 4 for stiff scenes |
 //! | [`adams`] | multistep methods: from the derivatives of earlier steps |
 //! | [`taylor`] | power series of the solution, where the derive gives them |
-//! | [`drive`] | runs. [`control`](drive::control): what carries a state over an interval; [`fixed`](drive::fixed); [`adaptive`](drive::adaptive), with [`step_length`](drive::step_length): how steps grow and shrink, and [`tolerance`](drive::tolerance): errors, and what rounding does to them; [`pace`](drive::pace), [`cause`](drive::cause): when and why a run is given up; [`compensated`](drive::compensated): what is rounded off is carried; [`projection`](drive::projection): constraints; [`event`](drive::event), [`search`](drive::search), `each`, `zero`: zeros of functions, jumps; `schedule`: controllers that sample; [`run`](drive::run): from jump to jump; `interval`: from instant to instant; [`trajectory`](drive::trajectory), [`summary`](drive::summary): what is kept; `record`: [`RunRecord`], what tables and pages read; [`simulation`](drive::simulation): [`Simulation`], the front; `boxed`: in a type for fields of structs |
+//! | [`drive`] | runs. [`control`](drive::control): what carries a state over an interval; [`fixed`](drive::fixed); [`adaptive`](drive::adaptive), with [`step_length`](drive::step_length): how steps grow and shrink, and [`tolerance`](drive::tolerance): errors, and what rounding does to them; [`pace`](drive::pace), [`cause`](drive::cause): when and why a run is given up; [`compensated`](drive::compensated): what is rounded off is carried; [`projection`](drive::projection): constraints; [`event`](drive::event), [`search`](drive::search), `each`, `zero`: zeros of functions, jumps; `schedule`: controllers that sample; [`run`](drive::run): from jump to jump; `interval`: from instant to instant; [`trajectory`](drive::trajectory), [`summary`](drive::summary): what is kept; `record`: [`RunRecord`], what tables and pages read; [`simulation`](drive::simulation): [`Simulation`], the front; [`stepper`](drive::stepper): [`Stepper`], step by step; `boxed`: in a type for fields of structs |
 
 pub mod adams;
 pub mod drive;
@@ -29,11 +29,12 @@ pub use drive::adaptive::Adaptive;
 #[cfg(feature = "alloc")]
 pub use drive::boxed::BoxedSimulation;
 pub use drive::compensated::Compensated;
-pub use drive::control::{Control, DEFAULT_LIMIT, StepCallback, StepStatistics};
+pub use drive::control::{Control, DEFAULT_LIMIT, Progress, StepCallback, StepStatistics};
 pub use drive::fixed::Fixed;
 pub use drive::observer::Observer;
 pub use drive::search::Crossing;
 pub use drive::simulation::Simulation;
+pub use drive::stepper::{StepOutcome, Stepper};
 pub use drive::summary::{End, Summary};
 #[cfg(feature = "alloc")]
 pub use drive::trajectory::{EventSample, Trajectory};

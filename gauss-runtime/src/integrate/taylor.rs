@@ -11,7 +11,8 @@ use core::ops::Range;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::cause::{StopPlace, StopReason, cause};
 use crate::integrate::drive::control::{
-    Control, StepCallback, StepStatistics, check_tolerances, longest, prepare, smallest, to_a_number, unresolved,
+    Control, Progress, StepCallback, StepStatistics, check_tolerances, longest, prepare, smallest, to_a_number,
+    unresolved,
 };
 use crate::integrate::drive::pace::Pace;
 use crate::integrate::drive::projection::{accept, check_move, is_hopeless, onto_constraints};
@@ -160,6 +161,7 @@ fn cost(order: usize) -> f64 {
 }
 
 /// The order of the series, and what goes with it.
+#[derive(Clone, Copy)]
 pub struct Order {
     /// Orders to judge steps at: [`APART`] lower, and the present one, with their tails.
     judged: [(usize, f64); 2],
@@ -329,38 +331,71 @@ assert!((after - before).abs() < 1e-13 * before);
     }
 }
 
+/// The choice of orders and steps of a run, as it goes on.
+#[derive(Clone, Copy)]
+pub struct OrderChoice {
+    direction: f64,
+    span: f64,
+    longest: f64,
+    limit: u64,
+    pace: Pace,
+    order: Order,
+    guess: f64,
+    shortened: ShortenedStep,
+}
+
 impl<S: TaylorSystem> Control<S> for Taylor {
-    fn drive<P: Problem<System = S>>(
+    type StepMemory = OrderChoice;
+
+    fn start<P: Problem<System = S>>(
         &self,
         problem: &P,
         start: State<S>,
         end: S::Scalar,
         limit: u64,
         emit: &mut StepCallback<'_, S>,
-    ) -> Result<State<S>, IntegrationError> {
+    ) -> Result<Progress<S, OrderChoice>, IntegrationError> {
         let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
         check_tolerances(self.relative, self.absolute).map_err(|kind| stopped(&start, kind))?;
-        let (span, start, rates) = prepare(problem, &start, end).map_err(|kind| stopped(&start, kind))?;
-        if emit(&start, &rates, StepStatistics::default()).is_break() || span == 0.0 {
-            return Ok(start);
+        let (span, state, rates) = prepare(problem, &start, end).map_err(|kind| stopped(&start, kind))?;
+        let choice = OrderChoice {
+            direction: if span < 0.0 { -1.0 } else { 1.0 },
+            span,
+            longest: 0.0,
+            limit,
+            pace: Pace::new(state.t.lane(0), limit),
+            order: Order::new(self, self.first_order()),
+            guess: 0.0,
+            shortened: ShortenedStep::default(),
+        };
+        let mut run = Progress::new((state, rates), end, choice, emit);
+        if !run.ended {
+            run.memory.longest = longest(self.largest_step, span, limit).map_err(|kind| stopped(&state, kind))?;
         }
-        let longest = longest(self.largest_step, span, limit).map_err(|kind| stopped(&start, kind))?;
-        let direction = if span < 0.0 { -1.0 } else { 1.0 };
-        let mut pace = Pace::new(start.t.lane(0), limit);
-        let mut order = Order::new(self, self.first_order());
+        Ok(run)
+    }
+
+    fn advance<P: Problem<System = S>>(
+        &self,
+        problem: &P,
+        run: &mut Progress<S, OrderChoice>,
+        emit: &mut StepCallback<'_, S>,
+    ) -> Result<(), IntegrationError> {
+        let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
         let mut series = S::Series::zero();
-        let (mut state, mut rates) = (start, rates);
-        let (mut guess, mut shortened) = (0.0, ShortenedStep::default());
+        let Progress { state, rates, end, ended, memory } = run;
+        let OrderChoice { direction, span, longest, limit, pace, order, guess, shortened } = memory;
+        let (end, direction, longest) = (*end, *direction, *longest);
         loop {
             let left = (end - state.t).lane(0).abs();
             let lanes = 0..S::Scalar::LANES;
-            let place = StopPlace { state: &state, rates: &rates, length: guess, left, stiff: false, lanes };
-            let gave = |gave| stopped(&state, cause(problem, &place, gave));
+            let place = StopPlace { state, rates, length: *guess, left, stiff: false, lanes };
+            let gave = |gave| stopped(state, cause(problem, &place, gave));
             if let Some(hopeless) = pace.spent(state.t.lane(0), left) {
-                return Err(gave(StopReason::StepLimit { limit, hopeless }));
+                return Err(gave(StopReason::StepLimit { limit: *limit, hopeless }));
             }
-            expanded(problem, &state, order.value(), &mut series);
-            let (lengths, excess) = self.lengths::<S>(&series, order.judged, direction * guess, 0..S::Scalar::LANES);
+            expanded(problem, state, order.value(), &mut series);
+            let (lengths, excess) = self.lengths::<S>(&series, order.judged, direction * *guess, 0..S::Scalar::LANES);
             let length = Real::exp(lengths[1]);
             // A NaN among the coefficients makes no length; where they are all zero the system is at rest.
             if length.is_nan() {
@@ -369,29 +404,28 @@ impl<S: TaylorSystem> Control<S> for Taylor {
             let length = (length * shortened.part()).min(longest);
             let last = length >= left * 0.999;
             let h = if last { end - state.t } else { to_a_number(state.t, direction * length) };
-            if state.t + h == state.t || !last && length <= smallest::<S::Scalar>(state.t.lane(0), span) {
-                let unresolved = unresolved::<S::Scalar>(length, state.t.lane(0), span);
+            if state.t + h == state.t || !last && length <= smallest::<S::Scalar>(state.t.lane(0), *span) {
+                let unresolved = unresolved::<S::Scalar>(length, state.t.lane(0), *span);
                 return Err(gave(StopReason::AnyStep(shortened.reason().unwrap_or(unresolved))));
             }
             let mut reached = summed(problem, state.t, &series, order.value(), h);
             if last {
                 reached.t = end;
             }
-            let next: Rates<S> = match self.accepted(problem, (&state, &rates), &mut reached) {
+            let next: Rates<S> = match self.accepted(problem, (state, rates), &mut reached) {
                 Ok(next) => next,
-                Err(kind) if shortened.again((problem, &state), 0..S::Scalar::LANES, kind) => continue,
+                Err(kind) if shortened.again((problem, state), 0..S::Scalar::LANES, kind) => continue,
                 Err(kind) => return Err(gave(StopReason::AnyStep(kind))),
             };
-            (state, rates) = (reached, next);
-            if emit(&state, &rates, shortened.taken(excess)).is_break() || last {
-                return Ok(state);
-            }
-            guess = length;
+            (*state, *rates, *ended, *guess) = (reached, next, last, length);
             if self.order.is_none() && length < longest {
                 let better = order.better(lengths);
                 if better != order.value() {
-                    order = Order::new(self, better);
+                    *order = Order::new(self, better);
                 }
+            }
+            if emit(state, rates, shortened.taken(excess)).is_break() || last {
+                return Ok(());
             }
         }
     }

@@ -21,7 +21,13 @@ pub const SMOOTH: Row = Row {
         ("imp", shown("tests/long_runs/tests/energy_momentum.rs", "orders_against_a_reference")),
         ("evt", refused(NO_CONTACTS)),
         ("stp", refused(NO_CONTACTS)),
-        ("one", shown("tests/tests/runs/rosenbrock.rs", "order_4_of_systems")),
+        (
+            "one",
+            shown(
+                "gauss-runtime/src/integrate/drive/runs/stepper_tests.rs",
+                "steps_have_the_bits_of_the_run_whatever_is_asked_between_them",
+            ),
+        ),
         ("lan", shown("tests/tests/runs/batch/mod.rs", "every_state_gets_the_bits_of_a_run_of_its_own")),
         ("thr", shown("tests/tests/runs/batch/ensembles.rs", "every_run_takes_the_steps_that_it_would_take_alone")),
         ("at", shown("tests/tests/runs/between.rs", "states_between_samples_have_their_error")),
@@ -86,8 +92,8 @@ pub const CONSTRAINTS: Row = Row {
         ),
         (
             "one",
-            shown("tests/tests/runs/rosenbrock.rs", "order_4_of_systems")
-                .but("nothing brings the state back onto the constraints: `project` does, when it is called"),
+            together("constraints::by_hand")
+                .but("by `OneStep::step` nothing brings the state back onto the constraints: `project` does, when it is called"),
         ),
         ("lan", shown("tests/tests/runs/batch/mod.rs", "constraints_hold_in_every_lane")),
         ("thr", together("constraints::lanes_and_threads")),
@@ -334,7 +340,7 @@ pub const INPUTS: Row = Row {
             shown("crates/gauss-contact/tests/many/spinning.rs", "gains_of_a_controller_are_held_for_a_step")
                 .but("held for a step"),
         ),
-        ("one", shown("tests/tests/runs/rosenbrock.rs", "order_4_in_every_chart_with_feedback")),
+        ("one", together("input::by_hand")),
         ("lan", shown("tests/tests/runs/batch/ensembles.rs", "pushes_that_are_over_soon_are_seen_in_every_lane")),
         ("thr", together("input::lanes_and_threads")),
         (

@@ -6,7 +6,6 @@ const AT_A_STATE: &str = "it happens in a run; the equations at a state have no 
 const WITH_CONTACTS: &str = "crates/gauss-contact/tests/many/sampled.rs";
 const JUMPS_OF_CONTACTS: &str = "crates/gauss-contact/tests/jumps.rs";
 const SALTATION: &str = "crates/gauss-sensitivity/tests/saltation.rs";
-const BETWEEN_STEPS: &str = "what is done between two steps is the caller's";
 
 pub const SAMPLED: Row = Row {
     name: "Controllers that sample",
@@ -23,7 +22,7 @@ pub const SAMPLED: Row = Row {
         ("imp", together("sampled::implicit")),
         ("evt", shown(WITH_CONTACTS, "from_event_to_event")),
         ("stp", shown(WITH_CONTACTS, "in_steps_of_any_length")),
-        ("one", moot(BETWEEN_STEPS)),
+        ("one", together("sampled::one_by_one")),
         (
             "lan",
             shown("crates/gauss-batch/tests/sampled_lanes.rs", "every_run_has_the_bits_of_its_own")
@@ -96,7 +95,7 @@ pub const EVENTS: Row = Row {
             shown("crates/gauss-contact/tests/many/front.rs", "steps_find_events_of_the_user")
                 .but("between the ends of steps; what passes there and back within one is not seen"),
         ),
-        ("one", moot("a step knows no events: the search belongs to `Simulation`")),
+        ("one", together("event::one_by_one")),
         ("lan", shown("tests/tests/runs/batch/ensembles.rs", "events_are_those_of_each_run")),
         (
             "thr",
@@ -156,7 +155,7 @@ pub const JUMPS: Row = Row {
             shown(JUMPS_OF_CONTACTS, "walls_of_ones_own_fold_the_way_of_a_block")
                 .but("the step ends at the event, by the states that steps reach"),
         ),
-        ("one", moot(BETWEEN_STEPS)),
+        ("one", together("jump::one_by_one")),
         ("lan", shown("tests/tests/runs/events.rs", "runs_in_lanes_pile_up_and_are_told_as_alone")),
         ("thr", together("jump::threads")),
         ("at", shown("tests/tests/runs/events.rs", "a_ball_bounces_by_every_method")),

@@ -2,7 +2,9 @@
 
 use gauss_batch::{Batch, States};
 use gauss_playback::{Playback, Shape};
-use gauss_runtime::integrate::{Control, Fixed};
+use gauss_runtime::integrate::drive::event::Events;
+use gauss_runtime::integrate::drive::observer::Unobserved;
+use gauss_runtime::integrate::{Control, Fixed, Problem, StepOutcome};
 use gauss_runtime::monitor::power_balance;
 use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Lanes;
@@ -29,16 +31,26 @@ fn slowed<T: Real>(sample: &mut Sample<PushedKernel<T>>) {
 
 /// Something that happens in a run of one second.
 pub trait Happening {
-    fn run<C: Control<Kernel> + 'static>(kernel: &Kernel, start: f64, control: C) -> Trajectory<'_, Kernel>;
+    fn simulation<C>(
+        kernel: &Kernel,
+        control: C,
+    ) -> Simulation<impl Problem<System = Kernel> + '_, C, Unobserved, impl Events<Kernel>>;
+
+    fn run<C: Control<Kernel> + 'static>(kernel: &Kernel, start: f64, control: C) -> Trajectory<'_, Kernel> {
+        Self::simulation(kernel, control).run(One::new(start), One::zeros(), 0.0..1.0).unwrap()
+    }
 }
 
 /// The mass passes zero.
 pub struct Event;
 
 impl Happening for Event {
-    fn run<C: Control<Kernel> + 'static>(kernel: &Kernel, start: f64, control: C) -> Trajectory<'_, Kernel> {
+    fn simulation<C>(
+        kernel: &Kernel,
+        control: C,
+    ) -> Simulation<impl Problem<System = Kernel> + '_, C, Unobserved, impl Events<Kernel>> {
         let run = Simulation::new(kernel).input(push).event(Crossing::Falling, |_, q: &One, _| q[0]);
-        run.control(control).run(One::new(start), One::zeros(), 0.0..1.0).unwrap()
+        run.control(control)
     }
 }
 
@@ -46,9 +58,12 @@ impl Happening for Event {
 pub struct Jump;
 
 impl Happening for Jump {
-    fn run<C: Control<Kernel> + 'static>(kernel: &Kernel, start: f64, control: C) -> Trajectory<'_, Kernel> {
+    fn simulation<C>(
+        kernel: &Kernel,
+        control: C,
+    ) -> Simulation<impl Problem<System = Kernel> + '_, C, Unobserved, impl Events<Kernel>> {
         let run = Simulation::new(kernel).input(push).event(Crossing::Falling, |_, q: &One, _| q[0]);
-        run.then_through(slowed).control(control).run(One::new(start), One::zeros(), 0.0..1.0).unwrap()
+        run.then_through(slowed).control(control)
     }
 }
 
@@ -56,9 +71,12 @@ impl Happening for Jump {
 pub struct Sampled;
 
 impl Happening for Sampled {
-    fn run<C: Control<Kernel> + 'static>(kernel: &Kernel, start: f64, control: C) -> Trajectory<'_, Kernel> {
+    fn simulation<C>(
+        kernel: &Kernel,
+        control: C,
+    ) -> Simulation<impl Problem<System = Kernel> + '_, C, Unobserved, impl Events<Kernel>> {
         let run = Simulation::new(kernel).input(push).sampled(0.1, |_, q: &One, z: &One| -2.0 * q - z);
-        run.control(control).run(One::new(start), One::zeros(), 0.0..1.0).unwrap()
+        run.control(control)
     }
 }
 
@@ -88,6 +106,29 @@ pub fn implicit<H: Happening>(_: &H) {
     let run = H::run(&kernel, START, Fixed::by(Collocation::order_6(), 0.02));
     let apart = apart(run.last(), exact::<H>(&kernel).last());
     assert!(apart < 1e-8, "{apart:e}");
+}
+
+/// Steps one at a time have the bits of the run: of its samples, one for each step and two where the state jumps.
+pub fn one_by_one<H: Happening>(_: &H) {
+    fn check<H: Happening>(control: impl Control<Kernel> + Copy + 'static) {
+        let kernel = kernel();
+        let whole = H::run(&kernel, START, control);
+        let mut run = H::simulation(&kernel, control).stepper(One::new(START), One::zeros(), 0.0..1.0).unwrap();
+        let (mut at, mut outcome) = (0, StepOutcome::Step);
+        while outcome != StepOutcome::End {
+            outcome = run.step().unwrap();
+            at += if outcome == StepOutcome::Jump(0) { 2 } else { 1 };
+            assert_eq!(apart(&run.state(), &whole.samples()[at]), 0.0);
+            let (begin, end) = (whole.samples()[at - 1].t, whole.samples()[at].t);
+            let between = 0.5 * (begin + end);
+            if outcome == StepOutcome::Step {
+                assert_eq!(apart(&run.at(between).unwrap(), &whole.at(between).unwrap()), 0.0);
+            }
+        }
+        assert_eq!((at + 1, run.summary()), (whole.len(), whole.summary()));
+    }
+    check::<H>(Adaptive::new(1e-9, 1e-10));
+    check::<H>(Fixed::new(0.03));
 }
 
 /// A row for each sample with its numbers, also of both at one time where the state jumps; and a picture of them.

@@ -56,16 +56,16 @@ goes_together! {
         records::{table_and_plot, page, study, energy},
         derivatives::{of_runs, at_a_state, of_a_step, along_a_run};
     input Input:
-        runs::{lanes_and_threads},
+        runs::{lanes_and_threads, by_hand},
         records::{table_and_plot, page, study};
     recorded Recorded:
         runs::{steps, stiff, implicit, lanes_and_threads, by_hand, between},
         records::{table_and_plot, page, study, energy},
         derivatives::{of_runs, along_a_run};
     event Event:
-        happenings::{stiff, table_and_plot, page, energy};
+        happenings::{one_by_one, stiff, table_and_plot, page, energy};
     jump Jump:
-        happenings::{stiff, table_and_plot, energy, study, threads};
+        happenings::{one_by_one, stiff, table_and_plot, energy, study, threads};
     sampled Sampled:
-        happenings::{stiff, implicit, table_and_plot, page, study};
+        happenings::{one_by_one, stiff, implicit, table_and_plot, page, study};
 }

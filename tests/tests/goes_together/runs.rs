@@ -2,7 +2,9 @@
 
 use gauss_batch::{Batch, BatchSystem, States};
 use gauss_runtime::configuration::Configuration;
-use gauss_runtime::integrate::{Adams, Control, Feedback, Fixed, OneStep, Problem, State, SystemProblem, VelocityForm};
+use gauss_runtime::integrate::{
+    Adams, Control, Feedback, Fixed, OneStep, Problem, State, StepOutcome, SystemProblem, VelocityForm,
+};
 use gauss_runtime::prelude::*;
 use gauss_runtime::simd::{Lanes, Packed};
 use gauss_sensitivity::{At, InputOf};
@@ -58,10 +60,22 @@ pub fn apart<S: Scene>(a: &(Q<S>, Z<S>), b: &(Q<S>, Z<S>)) -> f64 {
     change::<S>(a, b).iter().fold(0.0, |most, x| most.max(x.abs()))
 }
 
-fn check<S: Scene, C: Control<Kernel<S>>>(scene: &S, control: C, bound: f64) {
+/// The same end by steps that are made one at a time.
+fn end_by_steps<S: Scene, C: Control<Kernel<S>>>(scene: &S, control: C) -> (Q<S>, Z<S>) {
+    let (kernel, q, z) = made(scene, &S::NUMBERS);
+    let run = Simulation::new(&kernel).input(input(scene, &kernel)).control(control);
+    let mut run = run.stepper(q, z, 0.0..1.0).unwrap();
+    while run.step().unwrap() != StepOutcome::End {}
+    let end = run.state();
+    (end.q, end.z)
+}
+
+/// A run is as near to the reference as its method promises, and has the bits of its steps.
+fn check<S: Scene, C: Control<Kernel<S>> + Copy>(scene: &S, control: C, bound: f64) {
     let (end, expected) = (end_by(scene, &S::NUMBERS, control, 1.0), reference(scene, &S::NUMBERS, 1.0));
-    let apart = apart::<S>(&end, &expected);
-    assert!(apart < bound, "{apart:e}");
+    let away = apart::<S>(&end, &expected);
+    assert!(away < bound, "{away:e}");
+    assert_eq!(apart::<S>(&end_by_steps(scene, control), &end), 0.0);
 }
 
 /// Orders 8 and 4 with h ω ≤ 0.2 and 0.02: errors of (hω)^p over some hundred steps.
@@ -99,7 +113,7 @@ pub fn implicit<S: Scene>(scene: &S) {
     check(scene, Fixed::by(Collocation::order_6(), 0.01), 1e-7);
 }
 
-/// A step by hand after another, brought back onto constraints, gives the bits of a run.
+/// A step by hand after another, brought back onto constraints, gives the bits of a run; so do those of a stepper.
 pub fn by_hand<S: Scene>(scene: &S) {
     let (kernel, q, z) = made(scene, &S::NUMBERS);
     let problem = SystemProblem { system: &kernel, form: VelocityForm, input: Feedback(input(scene, &kernel)) };
@@ -112,6 +126,7 @@ pub fn by_hand<S: Scene>(scene: &S) {
     let expected = end_by(scene, &S::NUMBERS, Fixed::new(0.125), 1.0);
     // Sums of lengths are exact; a projection is asked for what the run has asked for.
     assert_eq!(apart::<S>(&(state.q, state.y), &expected), 0.0);
+    assert_eq!(apart::<S>(&end_by_steps(scene, Fixed::new(0.125)), &expected), 0.0);
 }
 
 /// States within a run, to its tolerance.

@@ -6,7 +6,8 @@ use gauss_batch::{Batch, States};
 use gauss_exact::{Scheme, Splitting, TopFlow};
 use gauss_runtime::integrate::{
     Collocation, CommutatorFree4, Composed, Composition, DormandPrince8, EnergyMomentum, IncrementStep,
-    IntegrationErrorKind, OneStep, Problem, Rkmk, Rosenbrock, RungeKutta, SystemProblem, Tableau, Variational,
+    IntegrationErrorKind, OneStep, Problem, Rkmk, Rosenbrock, RungeKutta, StepOutcome, SystemProblem, Tableau,
+    Variational,
 };
 use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Lanes;
@@ -68,6 +69,12 @@ fn steps_by_hand_refuse_contacts() {
     check_increment(&kernel, &Rkmk::new(&Tableau::DORMAND_PRINCE_8));
     check_increment(&kernel, &Collocation::midpoint());
     check_increment(&kernel, &EnergyMomentum::<f64, 2>::with_points());
+    let (q, z) = start();
+    let run = Simulation::new(&kernel).fixed_step(1e-3);
+    let refused = run.stepper(q, z, 0.0..1.0).expect_err("contacts");
+    assert!(matches!(refused.kind, IntegrationErrorKind::Contacts), "{refused}");
+    let mut open = run.without_contacts().stepper(q, z, 0.0..1.0).expect("begins");
+    assert_eq!(open.step(), Ok(StepOutcome::Step));
 }
 
 #[test]

@@ -108,6 +108,13 @@ type StateWithRates<S> = (State<S>, Rates<S>);
 /// The first K − 1 states of a run, and the derivatives there.
 pub struct StartingStates<S: GaussSystem, const K: usize>([StateWithRates<S>; MOST]);
 
+// Written by hand: deriving would ask the same of the system, which is only named here.
+impl<S: GaussSystem, const K: usize> Clone for StartingStates<S, K> {
+    fn clone(&self) -> Self {
+        Self(self.0)
+    }
+}
+
 impl<S: GaussSystem, const K: usize> StartingStates<S, K> {
     /// Whether a run of so many steps begins so.
     pub fn serves(steps: u64) -> bool {

@@ -18,8 +18,8 @@ mod formula;
 use core::ops::ControlFlow;
 
 use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::drive::control::{Control, StepCallback, one_step};
-use crate::integrate::drive::fixed::OneLength;
+use crate::integrate::drive::control::{Control, Progress, StepCallback, one_step};
+use crate::integrate::drive::fixed::EqualSteps;
 use crate::integrate::problem::called_equations::CalledEquations;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, RunPart};
@@ -63,6 +63,7 @@ impl<T: Real, const K: usize> Adams<T, K> {
 
 /// The derivatives at the ends of the last steps, the newest first, in a window that moves through an array with room
 /// for so many.
+#[derive(Clone)]
 pub struct History<C, Y, const K: usize, const ROOM: usize> {
     derivatives: [Point<C, Y>; ROOM],
     newest: usize,
@@ -172,22 +173,33 @@ pub fn multistep<S: GaussSystem, P: Problem<System = S>, const K: usize>(
     }
 }
 
+/// Derivatives there is room for.
+const ROOM: usize = 64;
+
+/// The derivatives that a run by a method of K steps remembers, and its first states, once they have been made, where
+/// it begins so.
+type Multistep<S, const K: usize> =
+    (History<ComponentsOf<S>, <S as GaussSystem>::Speeds, K, ROOM>, Option<StartingStates<S, K>>);
+
+/// A run by a method of K steps.
+type Multisteps<S, const K: usize> = Progress<S, (EqualSteps<<S as GaussSystem>::Scalar>, Multistep<S, K>)>;
+
 /// The steps before there is a history.
 #[inline(never)]
-fn first_steps<S: GaussSystem, P: Problem<System = S>, const K: usize, const ROOM: usize>(
+fn first_steps<S: GaussSystem, P: Problem<System = S>, const K: usize>(
     problem: &P,
-    run: &mut OneLength<S>,
+    run: &mut Multisteps<S, K>,
     emit: &mut StepCallback<'_, S>,
-    history: &mut History<ComponentsOf<S>, S::Speeds, K, ROOM>,
 ) -> Result<ControlFlow<()>, IntegrationError> {
     let problem = &CalledEquations(problem);
-    let long = StartingStates::<S, K>::serves(run.steps);
-    let ahead =
-        if long { StartingStates::<S, K>::of(problem, &run.state, &run.rates, run.length()).ok() } else { None };
-    let mut made = 0;
-    run.until(run.steps.min(K as u64 - 1), problem, emit, |state, rates, h| {
+    let (steps, (_, ahead)) = &mut run.memory;
+    if steps.made() == 0 && StartingStates::<S, K>::serves(steps.steps()) {
+        *ahead = StartingStates::of(problem, &run.state, &run.rates, steps.length()).ok();
+    }
+    let (first, mut made) = (steps.steps().min(K as u64 - 1), steps.made() as usize);
+    run.until(first, problem, emit, |(history, ahead), state, rates, h| {
         let newest = point::<S>(&state.q, rates);
-        let end = match &ahead {
+        let end = match ahead {
             Some(ahead) => {
                 let (end, known) = ahead.after(made);
                 (end, Some(known))
@@ -205,46 +217,53 @@ fn first_steps<S: GaussSystem, P: Problem<System = S>, const K: usize, const ROO
 #[inline(never)]
 fn last_step<S: GaussSystem, P: Problem<System = S>, const K: usize>(
     problem: &P,
-    run: &mut OneLength<S>,
+    run: &mut Multisteps<S, K>,
     emit: &mut StepCallback<'_, S>,
 ) -> Result<(), IntegrationError> {
     let problem = &CalledEquations(problem);
-    run.until(run.steps, problem, emit, |state, rates, h| begin::<S, _, K>(problem, state, rates, h)).map(|_| ())
+    let flow =
+        run.until(run.memory.0.steps(), problem, emit, |_, state, rates, h| begin::<S, _, K>(problem, state, rates, h));
+    flow.map(|_| ())
 }
 
 impl<S: GaussSystem, const K: usize> Control<S> for Adams<S::Scalar, K> {
-    fn drive<P: Problem<System = S>>(
+    type StepMemory = (EqualSteps<S::Scalar>, Multistep<S, K>);
+
+    fn start<P: Problem<System = S>>(
         &self,
         problem: &P,
         start: State<S>,
         end: S::Scalar,
         limit: u64,
         emit: &mut StepCallback<'_, S>,
-    ) -> Result<State<S>, IntegrationError> {
-        /// So many derivatives are there room for.
-        const ROOM: usize = 64;
-        let mut run = match OneLength::new((self.step, false), problem, &start, end, limit, emit)? {
-            Ok(run) => run,
-            Err(ended) => return Ok(ended),
-        };
-        let mut history = History::<_, _, K, ROOM>::new();
+    ) -> Result<Progress<S, Self::StepMemory>, IntegrationError> {
+        EqualSteps::start(((self.step, false), (History::new(), None)), problem, &start, end, limit, emit)
+    }
+
+    fn advance<P: Problem<System = S>>(
+        &self,
+        problem: &P,
+        run: &mut Progress<S, Self::StepMemory>,
+        emit: &mut StepCallback<'_, S>,
+    ) -> Result<(), IntegrationError> {
+        let steps = run.memory.0;
         // Three loops, of which the second, by itself, keeps what it works on in registers.
-        let mut flow = first_steps(problem, &mut run, emit, &mut history)?;
+        if steps.made() + 1 < K as u64 && first_steps(problem, run, emit)?.is_break() {
+            return Ok(());
+        }
         // The last step may be shorter.
-        let whole = run.steps - u64::from(!run.ends_with_a_whole_step());
-        if flow.is_continue() {
-            flow = run.until(whole, problem, emit, |state, rates, h| {
-                let newest = point::<S>(&state.q, rates);
-                let end = multistep::<S, P, K>(problem, state, rates, h, history.sums(&newest))?;
-                history.put(&newest);
-                history.step();
-                Ok((end, None))
-            })?;
+        let whole = steps.steps() - u64::from(!steps.ends_with_a_whole_step(run.end));
+        let flow = run.until(whole, problem, emit, |(history, _), state, rates, h| {
+            let newest = point::<S>(&state.q, rates);
+            let end = multistep::<S, P, K>(problem, state, rates, h, history.sums(&newest))?;
+            history.put(&newest);
+            history.step();
+            Ok((end, None))
+        })?;
+        if flow.is_continue() && !run.ended {
+            last_step(problem, run, emit)?;
         }
-        if flow.is_continue() {
-            last_step::<S, P, K>(problem, &mut run, emit)?;
-        }
-        Ok(run.state)
+        Ok(())
     }
 
     /// Makes one step of the method that begins runs, whose steps may be longer.

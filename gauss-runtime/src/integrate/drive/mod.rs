@@ -20,6 +20,6 @@ pub(in crate::integrate) use events::{departure, jump, watched, zero};
 pub use events::{each, task};
 #[cfg(feature = "alloc")]
 pub use runs::{RunRecord, boxed, trajectory};
-pub use runs::{interval, observer, run, simulation, summary};
+pub use runs::{interval, observer, run, simulation, stepper, summary};
 pub(in crate::integrate) use step_control::cubic;
 pub use step_control::{adaptive, compensated, control, fixed, logarithms, looks, step_length};

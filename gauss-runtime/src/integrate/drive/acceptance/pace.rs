@@ -5,6 +5,7 @@
 const WINDOW: u64 = 100_000;
 
 /// Follows how far a run comes with its steps.
+#[derive(Clone, Copy, Debug)]
 pub struct Pace {
     limit: u64,
     tries: u64,

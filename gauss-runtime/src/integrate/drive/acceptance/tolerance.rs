@@ -12,9 +12,11 @@
 //! of a chart, and of a body far from O, a small part of a momentum is much of a speed. States here have z in the place
 //! of y ([`Problem::in_speeds`]), and errors are changes of (q, z) ([`Problem::change_of_speeds`]).
 
+use core::fmt;
+
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::state::{Rates, State, TangentOf};
+use crate::integrate::problem::state::{Rates, State, TangentOf, copy_and_debug};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -45,6 +47,8 @@ pub struct Floor<S: GaussSystem> {
     /// The errors of the speeds by a rounding of q and of momenta, where they are more than a rounding of theirs.
     speeds: S::Speeds,
 }
+
+copy_and_debug!(Floor { derivatives, unit, speeds });
 
 impl<S: GaussSystem> Floor<S> {
     /// Nothing is known in any lane.

@@ -103,7 +103,6 @@ impl Mark {
     }
 
     /// Before another run.
-    #[cfg(feature = "alloc")]
     pub(in crate::integrate) fn renew(&mut self) {
         *self = Self { jumps: self.jumps, ..Self::new(self.crossing, self.terminal, self.through) };
     }

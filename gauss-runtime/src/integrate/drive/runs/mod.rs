@@ -10,6 +10,7 @@ pub mod run;
 #[cfg(feature = "alloc")]
 mod sampling;
 pub mod simulation;
+pub mod stepper;
 pub mod summary;
 #[cfg(feature = "alloc")]
 pub mod trajectory;

@@ -1,12 +1,13 @@
 //! One run: the method is driven from jump to jump, and from instant to instant where controllers sample; its samples
-//! and events are passed on.
+//! and events are passed on. A run to its end and one by single steps are the same loop.
 
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
+use core::fmt;
 use core::ops::{ControlFlow, Range};
 
 use crate::configuration::Configuration;
-use crate::integrate::drive::control::{Control, DEFAULT_LIMIT, StepStatistics};
+use crate::integrate::drive::control::{Control, DEFAULT_LIMIT, Progress, StepStatistics};
 use crate::integrate::drive::event::{Events, Outcome, Watch};
 use crate::integrate::drive::interval::{begin, tick};
 use crate::integrate::drive::observer::Observer;
@@ -18,7 +19,7 @@ use crate::integrate::drive::summary::{End, Summary};
 use crate::integrate::drive::trajectory::{EventSample, RunData};
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
-use crate::integrate::problem::state::{Rates, State};
+use crate::integrate::problem::state::{Rates, Sample, State, copy_and_debug};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -53,7 +54,7 @@ impl<'a, P, C> Run<'a, P, C> {
 }
 
 /// Summary of a run, and the event that stopped it.
-#[derive(Default)]
+#[derive(Clone, Copy, Default)]
 pub(in crate::integrate) struct RunResult {
     pub(in crate::integrate) summary: Summary,
     pub(in crate::integrate) stopped_by: Option<usize>,
@@ -63,6 +64,7 @@ pub(in crate::integrate) struct RunResult {
 const AT_ONCE: u32 = 3;
 
 /// Jumps, as they follow each other.
+#[derive(Clone, Copy, Debug)]
 pub struct Jumps {
     /// Times nearer than this are the same.
     resolution: f64,
@@ -115,6 +117,8 @@ struct PassedStates<S: GaussSystem> {
     resumed: bool,
 }
 
+copy_and_debug!(PassedStates { count, before, held, resumed });
+
 impl<S: GaussSystem> PassedStates<S> {
     const fn new() -> Self {
         Self { count: 0, before: None, held: false, resumed: false }
@@ -128,11 +132,106 @@ impl<S: GaussSystem> PassedStates<S> {
     }
 }
 
+/// A run on its way, from step to step.
+pub(in crate::integrate) struct RunProgress<S: GaussSystem, M> {
+    jumps: Jumps,
+    pace: Pace,
+    reached: RunResult,
+    passing: PassedStates<S>,
+    end: S::Scalar,
+    /// The start of the part that is on its way, or that is to come, until the next jump or instant.
+    from: State<S>,
+    part: Option<Progress<S, M>>,
+    over: bool,
+}
+
+impl<S: GaussSystem, M> RunProgress<S, M> {
+    /// Before anything is checked.
+    fn new(start: State<S>, end: S::Scalar, limit: u64) -> Self {
+        Self {
+            jumps: Jumps::new::<S::Scalar>(start.t.lane(0), end.lane(0)),
+            pace: Pace::new(start.t.lane(0), limit),
+            reached: RunResult::default(),
+            passing: PassedStates::new(),
+            end,
+            from: start,
+            part: None,
+            over: false,
+        }
+    }
+
+    /// The state where the run is.
+    pub(in crate::integrate) fn state(&self) -> &State<S> {
+        self.part.as_ref().map_or(&self.from, |part| &part.state)
+    }
+
+    /// The end of the run, if nothing stops it.
+    pub(in crate::integrate) fn end(&self) -> S::Scalar {
+        self.end
+    }
+
+    /// Steps so far, and the event that stopped the run.
+    pub(in crate::integrate) fn reached(&self) -> &RunResult {
+        &self.reached
+    }
+
+    /// Whether no step is to come.
+    pub(in crate::integrate) fn is_over(&self) -> bool {
+        self.over
+    }
+
+    /// Begins the steps anew where the run is: what acts is not what it was, the states passed on are the same.
+    pub(in crate::integrate) fn renew(&mut self) {
+        if let Some(Progress { state, .. }) = self.part.take() {
+            (self.from, self.passing.resumed) = (state, true);
+        }
+    }
+
+    /// Goes on from another state at the same time, as after a jump.
+    pub(in crate::integrate) fn put(&mut self, state: State<S>, pass: &mut dyn FnMut(RunItem<'_, S>)) {
+        self.passing.end(pass);
+        (self.from, self.part, self.passing) = (state, None, PassedStates::new());
+    }
+}
+
+// Written by hand: deriving would ask the same of the system, which is only named here.
+impl<S: GaussSystem, M: Clone> Clone for RunProgress<S, M> {
+    fn clone(&self) -> Self {
+        Self { part: self.part.clone(), ..*self }
+    }
+}
+
+/// The way that a run is to make by one call.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(in crate::integrate) enum Way {
+    /// To the start of a step.
+    ToStep,
+    /// To the end of it.
+    OneStep,
+    /// To the end of the run.
+    Whole,
+}
+
+/// How a step of a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum StepOutcome {
+    /// The step was made; the run goes on.
+    Step,
+    /// The state jumped, by the event of this number: the run goes on from the state after the jump.
+    Jump(usize),
+    /// The event of this number ended the run.
+    Stop(usize),
+    /// The run is at the end of its interval.
+    End,
+}
+
 /// End of a part of a run between two jumps or instants, unless it reached its end.
 enum Cut<S: GaussSystem> {
-    Stopped(State<S>),
-    Jumped(State<S>),
-    Failed(IntegrationErrorKind),
+    Stopped(State<S>, usize),
+    Jumped(State<S>, usize),
+    /// With the last state before.
+    Failed(IntegrationErrorKind, State<S>),
 }
 
 impl<S: GaussSystem> Cut<S> {
@@ -141,18 +240,18 @@ impl<S: GaussSystem> Cut<S> {
     fn at(
         counted: Result<(), IntegrationErrorKind>,
         (state, after): (State<S>, Option<State<S>>),
-        stopped: bool,
+        (number, stopped_by): (usize, Option<usize>),
         pass: &mut dyn FnMut(RunItem<'_, S>),
     ) -> Self {
         pass(RunItem::Sample(&state));
         match (counted, after) {
-            (Err(kind), _) => Self::Failed(kind),
-            (Ok(()), Some(after)) if !stopped => Self::Jumped(after),
+            (Err(kind), _) => Self::Failed(kind, state),
+            (Ok(()), Some(after)) if stopped_by.is_none() => Self::Jumped(after, number),
             (Ok(()), after) => {
                 if let Some(after) = &after {
                     pass(RunItem::Sample(after));
                 }
-                Self::Stopped(after.unwrap_or(state))
+                Self::Stopped(after.unwrap_or(state), stopped_by.unwrap_or(number))
             }
         }
     }
@@ -214,66 +313,105 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
     /// events between them.
     pub(in crate::integrate) fn drive<E: Events<S>>(
         &self,
-        events: E,
+        mut events: E,
         start: State<S>,
         end: S::Scalar,
         pass: &mut dyn FnMut(RunItem<'_, S>),
     ) -> (RunResult, Result<State<S>, IntegrationError>) {
+        let mut run = RunProgress::new(start, end, self.limit);
+        let outcome = self.begun(&mut events, &mut run);
+        let outcome = outcome.and_then(|()| self.advance(&mut run, &mut events, Way::Whole, pass));
+        (run.reached, outcome.map(|_| *run.state()))
+    }
+
+    /// A run before its first step, with the first state passed on.
+    pub(in crate::integrate) fn start<E: Events<S>>(
+        &self,
+        events: &mut E,
+        start: State<S>,
+        end: S::Scalar,
+        pass: &mut dyn FnMut(RunItem<'_, S>),
+    ) -> Result<RunProgress<S, C::StepMemory>, IntegrationError> {
+        let mut run = RunProgress::new(start, end, self.limit);
+        self.begun(events, &mut run)?;
+        self.advance(&mut run, events, Way::ToStep, pass)?;
+        Ok(run)
+    }
+
+    /// Goes on by a step, or to the end, from part to part. After an error the run is at its last state.
+    pub(in crate::integrate) fn advance<E: Events<S>>(
+        &self,
+        run: &mut RunProgress<S, C::StepMemory>,
+        events: &mut E,
+        way: Way,
+        pass: &mut dyn FnMut(RunItem<'_, S>),
+    ) -> Result<StepOutcome, IntegrationError> {
         let mut watch = Watch::new(self.control, self.problem, events, 0..S::Scalar::LANES);
-        let mut jumps = Jumps::new::<S::Scalar>(start.t.lane(0), end.lane(0));
-        let mut pace = Pace::new(start.t.lane(0), self.limit);
-        let mut reached = RunResult::default();
-        let mut passing = PassedStates::new();
-        let mut from = match self.begun(watch.events(), start, end) {
-            Ok(start) => start,
-            Err(kind) => return (reached, Err(IntegrationError::at(self.problem, &start, kind))),
-        };
         loop {
-            let stop = match self.ticked(watch.events(), &from, end) {
-                Ok((held, stop)) => {
-                    held.into_iter().for_each(|input| pass(RunItem::Held(from.t, input)));
-                    stop
-                }
-                Err(kind) => {
-                    passing.end(pass);
-                    return (reached, Err(IntegrationError::at(self.problem, &from, kind)));
-                }
+            let stop = match &run.part {
+                Some(part) => part.end,
+                None => self.ticked(watch.events(), run, pass)?,
             };
-            let now = (&mut jumps, &mut reached, &mut passing);
-            let (outcome, cut, last) = self.part(&mut watch, now, from, stop, pass);
-            let goes_on = E::SAMPLED && stop.lane(0) != end.lane(0);
-            if let (true, None, Ok(state)) = (goes_on, &cut, &outcome) {
-                (from, passing.resumed) = (*state, true);
-                continue;
+            let (outcome, cut) = self.part(&mut watch, run, (way, stop), pass);
+            if let (true, None, Some(Progress { state, ended, .. })) = (outcome.is_ok(), &cut, &run.part) {
+                if !ended {
+                    return Ok(StepOutcome::Step);
+                }
+                if E::SAMPLED && stop.lane(0) != run.end.lane(0) {
+                    (run.from, run.part, run.passing.resumed) = (*state, None, true);
+                    if way == Way::OneStep {
+                        return Ok(StepOutcome::Step);
+                    }
+                    continue;
+                }
             }
-            passing.end(pass);
-            let failed = |kind| Err(IntegrationError::at(self.problem, &last, kind));
+            run.passing.end(pass);
             match cut {
-                Some(Cut::Jumped(state)) => {
-                    (from, passing) = (state, PassedStates::new());
-                    let (left, tries) =
-                        ((end - from.t).lane(0).abs(), reached.summary.steps + reached.summary.rejected);
-                    if pace.jumped(from.t.lane(0), left, tries) {
-                        let kind =
-                            jumps.told(IntegrationErrorKind::TooManySteps { limit: self.limit }, &reached.summary);
-                        return (reached, failed(kind));
+                Some(Cut::Jumped(state, number)) => {
+                    self.jumped(run, state)?;
+                    if way != Way::Whole {
+                        return Ok(StepOutcome::Jump(number));
                     }
                 }
-                Some(Cut::Stopped(state)) => return (reached, Ok(state)),
-                Some(Cut::Failed(kind)) => return (reached, failed(kind)),
+                Some(Cut::Stopped(state, number)) => {
+                    (run.from, run.part, run.over) = (state, None, true);
+                    return Ok(StepOutcome::Stop(number));
+                }
+                Some(Cut::Failed(kind, last)) => {
+                    (run.from, run.part) = (last, None);
+                    return Err(IntegrationError::at(self.problem, &last, kind));
+                }
                 None => {
-                    let outcome = outcome.map_err(|mut error| {
-                        // The user set the limit of the whole run, not what was left of it for this part.
-                        if let IntegrationErrorKind::TooManySteps { limit } = &mut error.kind {
-                            *limit = self.limit;
-                        }
-                        error.kind = jumps.told(error.kind, &reached.summary);
-                        error
-                    });
-                    return (reached, outcome);
+                    run.over = outcome.is_ok();
+                    return outcome.map(|()| StepOutcome::End).map_err(|error| self.told(run, error));
                 }
             }
         }
+    }
+
+    /// The error of a part, as one of the whole run.
+    #[cold]
+    fn told(&self, run: &mut RunProgress<S, C::StepMemory>, mut error: IntegrationError) -> IntegrationError {
+        // The user set the limit of the whole run, not what was left of it for this part.
+        if let IntegrationErrorKind::TooManySteps { limit } = &mut error.kind {
+            *limit = self.limit;
+        }
+        error.kind = run.jumps.told(error.kind, &run.reached.summary);
+        (run.from, run.part) = (*run.state(), None);
+        error
+    }
+
+    /// Goes on from the state after a jump, unless the end is out of reach by jumps.
+    fn jumped(&self, run: &mut RunProgress<S, C::StepMemory>, state: State<S>) -> Result<(), IntegrationError> {
+        let last = run.passing.before.map_or(run.from, |(state, _)| state);
+        (run.from, run.part, run.passing) = (state, None, PassedStates::new());
+        let Summary { steps, rejected, .. } = run.reached.summary;
+        if run.pace.jumped(state.t.lane(0), (run.end - state.t).lane(0).abs(), steps + rejected) {
+            let kind = IntegrationErrorKind::TooManySteps { limit: self.limit };
+            let kind = run.jumps.told(kind, &run.reached.summary);
+            return Err(IntegrationError::at(self.problem, &last, kind));
+        }
+        Ok(())
     }
 
     /// The start of a run, of one with controllers on its constraints, after all checks before the first sample.
@@ -281,86 +419,128 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
     fn begun<E: Events<S>>(
         &self,
         events: &mut E,
-        start: State<S>,
-        end: S::Scalar,
-    ) -> Result<State<S>, IntegrationErrorKind> {
-        if !E::SAMPLED {
-            return Ok(start);
+        run: &mut RunProgress<S, C::StepMemory>,
+    ) -> Result<(), IntegrationError> {
+        if E::SAMPLED {
+            let from = run.from;
+            begin(events, self.problem.held().is_some(), (from.t, run.end), self.limit)
+                .and_then(|()| consistent_start(self.problem, &from))
+                .map(|start| run.from = start)
+                .map_err(|kind| IntegrationError::at(self.problem, &from, kind))?;
         }
-        begin(events, self.problem.held().is_some(), (start.t, end), self.limit)?;
-        consistent_start(self.problem, &start)
+        Ok(())
     }
 
-    /// The input that controllers hold from a state on, and until when.
+    /// Lets controllers sample the start of a part, and gives the time until which they hold their input.
     fn ticked<E: Events<S>>(
         &self,
         events: &mut E,
-        from: &State<S>,
-        end: S::Scalar,
-    ) -> Result<(Option<S::Input>, S::Scalar), IntegrationErrorKind> {
+        run: &mut RunProgress<S, C::StepMemory>,
+        pass: &mut dyn FnMut(RunItem<'_, S>),
+    ) -> Result<S::Scalar, IntegrationError> {
         if !E::SAMPLED {
-            return Ok((None, end));
+            return Ok(run.end);
         }
-        tick(events, &self.problem.sample(from), self.problem.held(), end)
+        match tick(events, &self.problem.sample(&run.from), self.problem.held(), run.end) {
+            Ok((held, stop)) => {
+                held.into_iter().for_each(|input| pass(RunItem::Held(run.from.t, input)));
+                Ok(stop)
+            }
+            Err(kind) => {
+                run.passing.end(pass);
+                Err(IntegrationError::at(self.problem, &run.from, kind))
+            }
+        }
     }
 
-    /// From one jump or instant to the next, with the last state that was reached.
-    #[expect(clippy::type_complexity, reason = "three things that belong together here alone")]
+    /// The cut of a part at a state that it has reached, where an event is on the way there.
+    #[inline(always)]
+    fn cut<E: Events<S>>(
+        watch: &mut Watch<'_, P, C, E>,
+        (jumps, reached, passing): (&mut Jumps, &mut RunResult, &mut PassedStates<S>),
+        (start, state, rates): (&State<S>, &State<S>, &Rates<S>),
+        pass: &mut dyn FnMut(RunItem<'_, S>),
+    ) -> Option<Cut<S>> {
+        let found = match &passing.before {
+            None => watch.begin(state).map(|()| Outcome::On),
+            Some((from, slopes)) => {
+                let made = StepEnds { lane: 0, before: (from, slopes), after: (state, rates) };
+                watch.step(&made, &mut |number, state| pass(RunItem::Event(number, state)))
+            }
+        };
+        match found {
+            Ok(Outcome::On) => None,
+            Ok(Outcome::Here { state, after, number, stopped_by }) => {
+                reached.stopped_by = stopped_by;
+                (passing.held, passing.before) = (false, Some((state, *rates)));
+                let counted = after.map_or(Ok(()), |_| {
+                    reached.summary.jumps += 1;
+                    jumps.count(state.t.lane(0), number)
+                });
+                Some(Cut::at(counted, (state, after), (number, stopped_by), pass))
+            }
+            Err(kind) => Some(Cut::Failed(kind, passing.before.map_or(*start, |(state, _)| state))),
+        }
+    }
+
+    /// From one jump or instant to the next, or by one step of that.
     fn part<E: Events<S>>(
         &self,
         watch: &mut Watch<'_, P, C, E>,
-        (jumps, reached, passing): (&mut Jumps, &mut RunResult, &mut PassedStates<S>),
-        start: State<S>,
-        end: S::Scalar,
+        run: &mut RunProgress<S, C::StepMemory>,
+        (way, stop): (Way, S::Scalar),
         pass: &mut dyn FnMut(RunItem<'_, S>),
-    ) -> (Result<State<S>, IntegrationError>, Option<Cut<S>>, State<S>) {
+    ) -> (Result<(), IntegrationError>, Option<Cut<S>>) {
         let mut cut = None;
+        let RunProgress { jumps, reached, passing, from, part, .. } = run;
         let limit = self.limit.saturating_sub(reached.summary.steps + reached.summary.rejected);
-        let outcome =
-            self.control.drive(self.problem, start, end, limit, &mut |state, rates, taken: StepStatistics| {
-                if core::mem::take(&mut passing.resumed) {
-                    // Passed on before; the derivatives are those of another input.
-                    passing.before = Some((*state, *rates));
-                    return ControlFlow::Continue(());
+        let emit = &mut |state: &State<S>, rates: &Rates<S>, taken: StepStatistics| {
+            if core::mem::take(&mut passing.resumed) {
+                // Passed on before; the derivatives are those of another input.
+                passing.before = Some((*state, *rates));
+                return ControlFlow::Continue(());
+            }
+            let first = passing.count == 0;
+            if !first {
+                reached.summary.count(taken);
+            }
+            if E::ANY {
+                cut = Self::cut(watch, (jumps, reached, passing), (from, state, rates), pass);
+                if cut.is_some() {
+                    return ControlFlow::Break(());
                 }
-                if passing.count > 0 {
-                    reached.summary.count(taken);
-                }
-                if E::ANY {
-                    let found = match &passing.before {
-                        None => watch.begin(state).map(|()| Outcome::On),
-                        Some((from, slopes)) => {
-                            let made = StepEnds { lane: 0, before: (from, slopes), after: (state, rates) };
-                            watch.step(&made, &mut |number, state| pass(RunItem::Event(number, state)))
-                        }
-                    };
-                    cut = match found {
-                        Ok(Outcome::On) => None,
-                        Ok(Outcome::Here { state, after, number, stopped_by }) => {
-                            reached.stopped_by = stopped_by;
-                            (passing.held, passing.before) = (false, Some((state, *rates)));
-                            let counted = after.map_or(Ok(()), |_| {
-                                reached.summary.jumps += 1;
-                                jumps.count(state.t.lane(0), number)
-                            });
-                            Some(Cut::at(counted, (state, after), stopped_by.is_some(), pass))
-                        }
-                        Err(kind) => Some(Cut::Failed(kind)),
-                    };
-                    if cut.is_some() {
-                        return ControlFlow::Break(());
-                    }
-                }
-                passing.held = !passing.count.is_multiple_of(self.every);
-                if !passing.held {
-                    pass(RunItem::Sample(state));
-                }
-                if passing.held || E::ANY {
-                    passing.before = Some((*state, *rates));
-                }
-                passing.count += 1;
-                ControlFlow::Continue(())
-            });
-        (outcome, cut, passing.before.map_or(start, |(state, _)| state))
+            }
+            passing.held = !passing.count.is_multiple_of(self.every);
+            if !passing.held {
+                pass(RunItem::Sample(state));
+            }
+            if passing.held || E::ANY {
+                passing.before = Some((*state, *rates));
+            }
+            passing.count += 1;
+            if way == Way::OneStep && !first { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let begun = match part {
+            Some(_) => Ok(()),
+            None => self.control.start(self.problem, *from, stop, limit, emit).map(|begun| *part = Some(begun)),
+        };
+        let outcome = begun.and_then(|()| match part {
+            Some(part) if way != Way::ToStep && !part.ended => self.control.advance(self.problem, part, emit),
+            _ => Ok(()),
+        });
+        (outcome, cut)
+    }
+}
+
+/// The state at a time within a step of a run, which the method reaches from the start of that step.
+pub(in crate::integrate) fn within_step<S: GaussSystem, P: Problem<System = S>, C: Control<S>>(
+    problem: &P,
+    control: &C,
+    from: &State<S>,
+    t: S::Scalar,
+) -> Result<Sample<S>, IntegrationError> {
+    match control.within(problem, from, &problem.rates(from), t - from.t) {
+        Ok(end) => Ok(problem.sample(&State { t, ..end })),
+        Err(kind) => Err(IntegrationError::at(problem, from, kind)),
     }
 }

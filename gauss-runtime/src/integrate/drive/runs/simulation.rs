@@ -17,6 +17,7 @@ use crate::integrate::drive::fixed::Fixed;
 use crate::integrate::drive::observer::{Callback, Observer, Unobserved};
 use crate::integrate::drive::run::Run;
 use crate::integrate::drive::search::Crossing;
+use crate::integrate::drive::stepper::Stepper;
 use crate::integrate::drive::summary::End;
 #[cfg(feature = "alloc")]
 use crate::integrate::drive::trajectory::Trajectory;
@@ -514,6 +515,27 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
     {
         let Self { problem, control, observer, events, every, limit } = self;
         Run::new(&problem, &control, every, limit).to_end(events, observer, (q0, z0), interval)
+    }
+
+    /// Begins a run that makes its steps one at a time, when it is asked to: for game loops, debuggers, couplings with
+    /// other programs.
+    ///
+    /// # Errors
+    /// When the run cannot begin.
+    pub fn stepper<S: GaussSystem>(
+        self,
+        q0: S::Configuration,
+        z0: S::Speeds,
+        interval: Range<S::Scalar>,
+    ) -> Result<Stepper<P, C, O, E>, IntegrationError>
+    where
+        P: Problem<System = S>,
+        C: Control<S>,
+        O: Observer<S>,
+        E: Events<S>,
+    {
+        let Self { problem, control, observer, events, every, limit } = self;
+        Stepper::new((problem, control), (observer, events), (every, limit), (q0, z0), interval)
     }
 
     /// The same simulation in a type that can be written, for a field of a struct. It can be run many times.

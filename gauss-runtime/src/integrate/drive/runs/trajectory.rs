@@ -6,6 +6,7 @@ use alloc::rc::Rc;
 use alloc::vec::Vec;
 
 use crate::integrate::drive::control::{Control, DEFAULT_LIMIT};
+use crate::integrate::drive::run::within_step;
 use crate::integrate::drive::summary::Summary;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
@@ -264,10 +265,7 @@ impl<P, C> Maker<P, C> {
             let nobody = &mut |_: &State<S>, _: &_, _| core::ops::ControlFlow::Continue(());
             return control.drive(problem, state, t, DEFAULT_LIMIT, nobody).map(|end| problem.sample(&end));
         }
-        match control.within(problem, &state, &problem.rates(&state), t - state.t) {
-            Ok(end) => Ok(problem.sample(&State { t, ..end })),
-            Err(kind) => Err(IntegrationError::at(problem, &state, kind)),
-        }
+        within_step(problem, control, &state, t)
     }
 }
 

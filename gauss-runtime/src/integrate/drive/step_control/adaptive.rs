@@ -1,11 +1,13 @@
 //! Steps as long as a tolerance allows.
 
+use core::fmt;
 use core::ops::Range;
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::cause::{StopPlace, StopReason, cause, change};
 use crate::integrate::drive::control::{
-    Control, StepCallback, StepStatistics, check_tolerances, longest, prepare, smallest, to_a_number, unresolved,
+    Control, Progress, StepCallback, StepStatistics, check_tolerances, longest, prepare, smallest, to_a_number,
+    unresolved,
 };
 use crate::integrate::drive::cubic::StepEnds;
 use crate::integrate::drive::looks::Looks;
@@ -16,7 +18,7 @@ use crate::integrate::drive::tolerance::{Floor, Tolerance, Trial};
 use crate::integrate::lie_group::rkmk::Rkmk;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
-use crate::integrate::problem::state::{Rates, State, TangentOf};
+use crate::integrate::problem::state::{Rates, State, TangentOf, copy_and_debug};
 use crate::integrate::runge_kutta::components::RungeKutta;
 use crate::integrate::runge_kutta::tableau::{DormandPrince8, Tableau};
 use crate::integrate::step::iteration::worst;
@@ -111,15 +113,10 @@ impl<M> Adaptive<M> {
 /// The error, in tolerances, for which one that is but rounding is taken: steps then grow by a sixth.
 pub const ROUNDED: f64 = 1e-3;
 
-/// A run on its way.
-struct Drive<'a, S: GaussSystem, P, M> {
-    control: &'a Adaptive<M>,
-    problem: &'a P,
-    end: S::Scalar,
+/// The choice of steps of a run, as it goes on.
+pub struct StepChoice<S: GaussSystem> {
     span: f64,
     longest: f64,
-    state: State<S>,
-    rates: Rates<S>,
     /// The length to try next.
     length: f64,
     lengths: StepLength,
@@ -129,61 +126,86 @@ struct Drive<'a, S: GaussSystem, P, M> {
     /// The longest step since the rounding error was measured, or the step for which it was measured.
     looked: f64,
     rejected: u32,
+    limit: u64,
+    pace: Pace,
+}
+
+copy_and_debug!(StepChoice { span, longest, length, lengths, looks, floor, looked, rejected, limit, pace });
+
+/// A run on its way, with what does not change.
+struct Drive<'a, S: GaussSystem, P, M> {
+    control: &'a Adaptive<M>,
+    problem: &'a P,
+    end: S::Scalar,
+    state: &'a mut State<S>,
+    rates: &'a mut Rates<S>,
+    choice: &'a mut StepChoice<S>,
 }
 
 impl<S: GaussSystem, M: EstimatingStep<S>> Control<S> for Adaptive<M> {
+    type StepMemory = StepChoice<S>;
+
     fn tolerance(&self) -> Option<Tolerance> {
         Some(self.tolerance)
     }
 
-    fn drive<P: Problem<System = S>>(
+    fn start<P: Problem<System = S>>(
         &self,
         problem: &P,
         start: State<S>,
         end: S::Scalar,
         limit: u64,
         emit: &mut StepCallback<'_, S>,
-    ) -> Result<State<S>, IntegrationError> {
+    ) -> Result<Progress<S, Self::StepMemory>, IntegrationError> {
         let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
         let Tolerance { relative, absolute } = self.tolerance;
         check_tolerances(relative, absolute).map_err(|kind| stopped(&start, kind))?;
-        let (span, start, rates) = prepare(problem, &start, end).map_err(|kind| stopped(&start, kind))?;
-        if emit(&start, &rates, StepStatistics::default()).is_break() || span == 0.0 {
-            return Ok(start);
-        }
-        let lengths = self.first_and_longest(problem, &start, &rates, span, limit);
-        let (length, longest) = lengths.map_err(|kind| stopped(&start, kind))?;
-        let lengths = StepLength::new(self.method.estimate_order(), problem.system().smoothness());
-        let (state, floor) = (start, None);
-        let looks = Looks::new(self.input_changes, start.t.lane(0), span);
-        let mut run = Drive {
-            control: self,
-            problem,
-            end,
+        let (span, state, rates) = prepare(problem, &start, end).map_err(|kind| stopped(&start, kind))?;
+        let from = state.t.lane(0);
+        let choice = StepChoice {
             span,
-            longest,
-            state,
-            rates,
-            length,
-            lengths,
-            looks,
-            floor,
+            longest: 0.0,
+            length: 0.0,
+            lengths: StepLength::new(self.method.estimate_order(), problem.system().smoothness()),
+            looks: Looks::new(self.input_changes, from, span),
+            floor: None,
             looked: 0.0,
             rejected: 0,
+            limit,
+            pace: Pace::new(from, limit),
         };
-        let mut pace = Pace::new(start.t.lane(0), limit);
+        let mut run = Progress::new((state, rates), end, choice, emit);
+        if !run.ended {
+            let lengths = self.first_and_longest(problem, &state, &rates, span, limit);
+            (run.memory.length, run.memory.longest) = lengths.map_err(|kind| stopped(&state, kind))?;
+        }
+        Ok(run)
+    }
+
+    fn advance<P: Problem<System = S>>(
+        &self,
+        problem: &P,
+        run: &mut Progress<S, Self::StepMemory>,
+        emit: &mut StepCallback<'_, S>,
+    ) -> Result<(), IntegrationError> {
+        let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
+        let Progress { state, rates, end, ended, memory: choice } = run;
+        let mut drive = Drive { control: self, problem, end: *end, state, rates, choice };
         loop {
-            if let Some(hopeless) = pace.spent(run.state.t.lane(0), run.left()) {
-                return Err(stopped(&run.state, run.cause(StopReason::StepLimit { limit, hopeless })));
+            let (time, left) = (drive.state.t.lane(0), drive.left());
+            if let Some(hopeless) = drive.choice.pace.spent(time, left) {
+                let limit = drive.choice.limit;
+                return Err(stopped(drive.state, drive.cause(StopReason::StepLimit { limit, hopeless })));
             }
-            match run.step() {
+            match drive.step() {
                 Ok(None) => {}
                 Ok(Some((taken, last))) => {
-                    if emit(&run.state, &run.rates, taken).is_break() || last {
-                        return Ok(run.state);
+                    *ended = last;
+                    if emit(drive.state, drive.rates, taken).is_break() || last {
+                        return Ok(());
                     }
                 }
-                Err(kind) => return Err(stopped(&run.state, run.cause(StopReason::AnyStep(kind)))),
+                Err(kind) => return Err(stopped(drive.state, drive.cause(StopReason::AnyStep(kind)))),
             }
         }
     }
@@ -220,13 +242,9 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
     }
 
     fn cause(&self, gave: StopReason) -> IntegrationErrorKind {
-        let Self { problem, state, rates, length, .. } = self;
-        let stiff = self.control.method.properties().stiff;
-        cause(
-            *problem,
-            &StopPlace { state, rates, length: *length, left: self.left(), stiff, lanes: 0..S::Scalar::LANES },
-            gave,
-        )
+        let Self { state, rates, .. } = self;
+        let (stiff, length, lanes) = (self.control.method.properties().stiff, self.choice.length, 0..S::Scalar::LANES);
+        cause(self.problem, &StopPlace { state, rates, length, left: self.left(), stiff, lanes }, gave)
     }
 
     /// Tries a step. None when it is rejected, else how it was taken, and whether it was the last one.
@@ -234,39 +252,39 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
     fn step(&mut self) -> Result<Option<(StepStatistics, bool)>, IntegrationErrorKind> {
         let left = self.left();
         // Stretch by 1 % rather than leave a sliver.
-        let last = self.length >= left * 0.99;
+        let last = self.choice.length >= left * 0.99;
         let signed = if last {
             self.end - self.state.t
         } else {
-            to_a_number(self.state.t, if self.span < 0.0 { -self.length } else { self.length })
+            to_a_number(self.state.t, if self.choice.span < 0.0 { -self.choice.length } else { self.choice.length })
         };
-        if self.state.t + signed == self.state.t || !last && self.vanishes(self.length) {
-            return Err(unresolved::<S::Scalar>(self.length, self.state.t.lane(0), self.span));
+        if self.state.t + signed == self.state.t || !last && self.vanishes(self.choice.length) {
+            return Err(unresolved::<S::Scalar>(self.choice.length, self.state.t.lane(0), self.choice.span));
         }
-        let (step, coarse) =
-            match self.control.method.step_and_estimates(self.problem, &self.state, &self.rates, signed) {
-                Ok(step) => step,
-                Err(kind) => return self.halve(left, kind),
-            };
-        let used = if last { left } else { self.length };
+        let (step, coarse) = match self.control.method.step_and_estimates(self.problem, self.state, self.rates, signed)
+        {
+            Ok(step) => step,
+            Err(kind) => return self.halve(left, kind),
+        };
+        let used = if last { left } else { self.choice.length };
         let length = S::Scalar::from_f64(used);
-        let (control, limit) = (self.control, self.lengths.limit());
+        let (control, limit) = (self.control, self.choice.lengths.limit());
         let error = self.error_of(&step, coarse.as_ref(), length);
         if error.is_nan() || error > limit {
-            self.length = used * self.lengths.reject(error);
-            self.rejected += 1;
+            self.choice.length = used * self.choice.lengths.reject(error);
+            self.choice.rejected += 1;
             return Ok(None);
         }
         let mut reached = step.state;
         if last {
             reached.t = self.end;
         }
-        let rates = match accept(self.problem, (&self.state, &self.rates), &mut reached, step.rates) {
+        let rates = match accept(self.problem, (self.state, self.rates), &mut reached, step.rates) {
             Ok(rates) => rates,
             Err(kind) => return self.halve(left, kind),
         };
         if S::CONSTRAINED {
-            let trial = Trial { from: &self.state, to: &reached, length, floor: None };
+            let trial = Trial { from: self.state, to: &reached, length, floor: None };
             let moved = match check_move(&control.tolerance, self.problem, &trial, &step.state) {
                 Ok(moved) => moved,
                 Err(kind) => return self.halve(left, kind),
@@ -278,12 +296,12 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
         if self.problem.has_input() && self.leads_over_input((used, error), (&reached, &rates)) {
             return Ok(None);
         }
-        let excess = self.floor.as_ref().map_or(0.0, |floor| {
-            let (from, to) = (&self.problem.in_speeds(&self.state), &self.problem.in_speeds(&reached));
+        let excess = self.choice.floor.as_ref().map_or(0.0, |floor| {
+            let (from, to) = (&self.problem.in_speeds(self.state), &self.problem.in_speeds(&reached));
             control.tolerance.excess(&Trial { from, to, length, floor: Some(floor) })
         });
-        let taken = StepStatistics { rejected: core::mem::take(&mut self.rejected), excess };
-        (self.state, self.rates) = (reached, rates);
+        let taken = StepStatistics { rejected: core::mem::take(&mut self.choice.rejected), excess };
+        (*self.state, *self.rates) = (reached, rates);
         self.choose_length(used, error, excess);
         Ok(Some((taken, last)))
     }
@@ -294,47 +312,47 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
         let tolerance = &self.control.tolerance;
         let measured = |change: &Rates<S>| self.problem.change_of_speeds(&step.state, change);
         let (fine, coarse) = (measured(&step.error), coarse.map(measured));
-        let (from, to) = (&self.problem.in_speeds(&self.state), &self.problem.in_speeds(&step.state));
+        let (from, to) = (&self.problem.in_speeds(self.state), &self.problem.in_speeds(&step.state));
         let above = |floor: &Floor<S>| tolerance.error_above(floor, (from, to, length), (&fine, coarse.as_ref()));
-        if let Some(floor) = &self.floor {
+        if let Some(floor) = &self.choice.floor {
             return above(floor);
         }
         let error = tolerance.error(&Trial { from, to, length, floor: None }, &fine, coarse.as_ref());
-        if !(error.is_nan() || error > self.lengths.limit()) {
+        if !(error.is_nan() || error > self.choice.lengths.limit()) {
             return error;
         }
-        let floor = Floor::at(self.problem, &self.state, &self.rates);
+        let floor = Floor::at(self.problem, self.state, self.rates);
         let error = above(&floor);
-        self.floor = Some(floor);
+        self.choice.floor = Some(floor);
         error
     }
 
     /// Whether a step ends beside a place where constraints become dependent: then the next trial ends before it.
     #[inline(always)]
     fn ends_beside(&mut self, used: f64, reached: &State<S>, moved: &Rates<S>) -> bool {
-        if self.rejected >= AVOIDED {
+        if self.choice.rejected >= AVOIDED {
             return false;
         }
         let length = S::Scalar::from_f64(used);
-        let trial = Trial { from: &self.state, to: reached, length, floor: None };
+        let trial = Trial { from: self.state, to: reached, length, floor: None };
         let Some(part) = clear_part(self.problem, &trial, moved, 0) else { return false };
-        self.length = used * self.lengths.stop_before(part);
-        self.rejected += 1;
+        self.choice.length = used * self.choice.lengths.stop_before(part);
+        self.choice.rejected += 1;
         true
     }
 
     /// Whether something acts within the step that its stages have not seen, as far as looks tell: then the next trial
     /// ends there.
     fn leads_over_input(&mut self, (used, error): (f64, f64), after: (&State<S>, &Rates<S>)) -> bool {
-        if self.looks.want(self.state.t.lane(0), used, error) {
-            let made = StepEnds { lane: 0, before: (&self.state, &self.rates), after };
-            if let Some(shorter) = self.looks.unseen(self.problem, &made, &self.control.tolerance) {
-                self.length = shorter;
-                self.rejected += 1;
+        if self.choice.looks.want(self.state.t.lane(0), used, error) {
+            let made = StepEnds { lane: 0, before: (self.state, self.rates), after };
+            if let Some(shorter) = self.choice.looks.unseen(self.problem, &made, &self.control.tolerance) {
+                self.choice.length = shorter;
+                self.choice.rejected += 1;
                 return true;
             }
         }
-        self.looks.take(error);
+        self.choice.looks.take(error);
         false
     }
 
@@ -343,22 +361,22 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
     fn choose_length(&mut self, used: f64, error: f64, excess: f64) {
         // Well below what rounding does there is nothing to be learnt of the step.
         let told = if excess > 0.0 && error < 0.5 { error.min(ROUNDED) } else { error };
-        self.length = (used * self.lengths.accept(told)).min(self.longest);
+        self.choice.length = (used * self.choice.lengths.accept(told)).min(self.choice.longest);
         // Measured again where rounding limits the step, elsewhere when steps have become short.
-        let short = self.length < 0.5 * self.looked;
-        if excess > 0.0 || short || self.floor.is_some() {
+        let short = self.choice.length < 0.5 * self.choice.looked;
+        if excess > 0.0 || short || self.choice.floor.is_some() {
             self.look(excess > 0.0 || short);
         }
-        self.looked = self.looked.max(self.length);
+        self.choice.looked = self.choice.looked.max(self.choice.length);
     }
 
     /// Measures what rounding does where the run is now, or forgets it.
     #[cold]
     #[inline(never)]
     fn look(&mut self, again: bool) {
-        self.floor = again.then(|| Floor::at(self.problem, &self.state, &self.rates));
+        self.choice.floor = again.then(|| Floor::at(self.problem, self.state, self.rates));
         if again {
-            self.looked = self.length;
+            self.choice.looked = self.choice.length;
         }
     }
 
@@ -369,19 +387,19 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
         left: f64,
         kind: IntegrationErrorKind,
     ) -> Result<Option<(StepStatistics, bool)>, IntegrationErrorKind> {
-        self.length = StepLength::part(&kind) * self.length.min(left);
-        self.rejected += 1;
-        self.lengths.fail();
-        let h = S::Scalar::from_f64(if self.span < 0.0 { -self.length } else { self.length });
-        let moves = change(&self.state, &self.rates, &(0..S::Scalar::LANES)) * self.length;
+        self.choice.length = StepLength::part(&kind) * self.choice.length.min(left);
+        self.choice.rejected += 1;
+        self.choice.lengths.fail();
+        let h = S::Scalar::from_f64(if self.choice.span < 0.0 { -self.choice.length } else { self.choice.length });
+        let moves = change(self.state, self.rates, &(0..S::Scalar::LANES)) * self.choice.length;
         let still = moves > 0.0 && moves < 0.5 * S::Scalar::EPSILON;
-        let hopeless = || is_hopeless(self.problem, &self.state, 0..S::Scalar::LANES, (&kind, self.rejected));
-        let ends = still || self.vanishes(self.length) || self.state.t + h == self.state.t || hopeless();
+        let hopeless = || is_hopeless(self.problem, self.state, 0..S::Scalar::LANES, (&kind, self.choice.rejected));
+        let ends = still || self.vanishes(self.choice.length) || self.state.t + h == self.state.t || hopeless();
         if ends { Err(kind) } else { Ok(None) }
     }
 
     fn vanishes(&self, length: f64) -> bool {
-        length <= smallest::<S::Scalar>(self.state.t.lane(0), self.span)
+        length <= smallest::<S::Scalar>(self.state.t.lane(0), self.choice.span)
     }
 }
 

@@ -10,8 +10,8 @@
 //! parts ([`IncrementStep`]); attitudes are held at norm 1 within the same sum. The example `long_runs` measures it.
 
 use crate::configuration::{Configuration, VectorSpace, add_carrying};
-use crate::integrate::drive::control::{Control, StepCallback, one_step};
-use crate::integrate::drive::fixed::steps_of_one_length;
+use crate::integrate::drive::control::{Control, Progress, StepCallback, one_step};
+use crate::integrate::drive::fixed::EqualSteps;
 use crate::integrate::lie_group::rkmk::Rkmk;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, RunPart};
@@ -48,35 +48,41 @@ impl<T: Real, M> Compensated<T, M> {
 }
 
 impl<S: GaussSystem, M: IncrementStep<S>> Control<S> for Compensated<S::Scalar, M> {
-    fn drive<P: Problem<System = S>>(
+    /// The steps, and what was rounded off the state so far.
+    type StepMemory = (EqualSteps<S::Scalar>, Rates<S>);
+
+    fn start<P: Problem<System = S>>(
         &self,
         problem: &P,
         start: State<S>,
         end: S::Scalar,
         limit: u64,
         emit: &mut StepCallback<'_, S>,
-    ) -> Result<State<S>, IntegrationError> {
-        let mut carried: Rates<S> = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
-        steps_of_one_length(
-            (self.step, self.method.properties().stiff),
-            problem,
-            start,
-            end,
-            limit,
-            emit,
-            |state, rates, h| {
-                let increment = self.method.increment(problem, state, rates, h)?;
-                let q = state.q.retract_carrying(&increment.configuration, &mut carried.configuration);
-                let (y, rest) = add_carrying(&state.y, &increment.variables, &carried.variables);
-                carried.variables = rest;
-                let end = State { t: state.t + h, q, y };
-                check_chart(problem.system(), state, &end)?;
-                if !(end.q.is_finite() && end.y.is_finite()) {
-                    return Err(IntegrationErrorKind::NonFinite { part: RunPart::Step });
-                }
-                Ok((end, None))
-            },
-        )
+    ) -> Result<Progress<S, Self::StepMemory>, IntegrationError> {
+        let carried = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
+        let how = (self.step, self.method.properties().stiff);
+        EqualSteps::start((how, carried), problem, &start, end, limit, emit)
+    }
+
+    fn advance<P: Problem<System = S>>(
+        &self,
+        problem: &P,
+        run: &mut Progress<S, Self::StepMemory>,
+        emit: &mut StepCallback<'_, S>,
+    ) -> Result<(), IntegrationError> {
+        let flow = run.until(run.memory.0.steps(), problem, emit, |carried, state, rates, h| {
+            let increment = self.method.increment(problem, state, rates, h)?;
+            let q = state.q.retract_carrying(&increment.configuration, &mut carried.configuration);
+            let (y, rest) = add_carrying(&state.y, &increment.variables, &carried.variables);
+            carried.variables = rest;
+            let end = State { t: state.t + h, q, y };
+            check_chart(problem.system(), state, &end)?;
+            if !(end.q.is_finite() && end.y.is_finite()) {
+                return Err(IntegrationErrorKind::NonFinite { part: RunPart::Step });
+            }
+            Ok((end, None))
+        });
+        flow.map(|_| ())
     }
 
     fn within<P: Problem<System = S>>(

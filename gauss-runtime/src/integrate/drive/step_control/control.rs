@@ -39,6 +39,41 @@ impl StepStatistics {
 /// the step. It breaks to end the run.
 pub type StepCallback<'a, S> = dyn FnMut(&State<S>, &Rates<S>, StepStatistics) -> ControlFlow<()> + 'a;
 
+/// A run on its way over an interval: its state, and the memory of the control from step to step.
+pub struct Progress<S: GaussSystem, M> {
+    /// State of the run, on the constraints.
+    pub state: State<S>,
+    /// The derivatives there.
+    pub rates: Rates<S>,
+    /// The end of the interval.
+    pub end: S::Scalar,
+    /// Whether the run is there, or was ended before its first step.
+    pub ended: bool,
+    /// What the choice of steps remembers.
+    pub memory: M,
+}
+
+impl<S: GaussSystem, M> Progress<S, M> {
+    /// Before the first step, told to `emit`.
+    #[inline(always)]
+    pub fn new(
+        (state, rates): (State<S>, Rates<S>),
+        end: S::Scalar,
+        memory: M,
+        emit: &mut StepCallback<'_, S>,
+    ) -> Self {
+        let ended = emit(&state, &rates, StepStatistics::default()).is_break() || (end - state.t).lane(0) == 0.0;
+        Self { state, rates, end, ended, memory }
+    }
+}
+
+// Written by hand: deriving would ask the same of the system, which is only named here.
+impl<S: GaussSystem, M: Clone> Clone for Progress<S, M> {
+    fn clone(&self) -> Self {
+        Self { memory: self.memory.clone(), ..*self }
+    }
+}
+
 /// A method with its choice of steps, which carries a state to the end of an interval.
 #[diagnostic::on_unimplemented(
     message = "the steps of the simulation are not chosen",
@@ -46,13 +81,42 @@ pub type StepCallback<'a, S> = dyn FnMut(&State<S>, &Rates<S>, StepStatistics) -
     note = "add `.adaptive(1e-9, 1e-9)`, `.fixed_step(1e-3)` or `.control(…)` before the run"
 )]
 pub trait Control<S: GaussSystem> {
-    /// Integrates from `start` to the time `end` (before or after it), in at most `limit` steps, rejected ones
-    /// included. `emit` gets every state reached with the derivatives there, the first and the last included. With
-    /// constraints, all of them satisfy these up to rounding. When `emit` breaks, the run ends there, with the state
-    /// that it got.
+    /// The data that the choice of steps keeps from step to step: lengths, errors, derivatives of earlier steps.
+    type StepMemory: Clone;
+
+    /// Begins a run from `start` to the time `end` (before or after it), in at most `limit` steps, rejected ones
+    /// included. `emit` gets the first state with the derivatives there.
+    ///
+    /// # Errors
+    /// An [`IntegrationError`] where the run cannot begin.
+    fn start<P: Problem<System = S>>(
+        &self,
+        problem: &P,
+        start: State<S>,
+        end: S::Scalar,
+        limit: u64,
+        emit: &mut StepCallback<'_, S>,
+    ) -> Result<Progress<S, Self::StepMemory>, IntegrationError>;
+
+    /// Makes steps until the end is reached or `emit` breaks, which gets every state reached with the derivatives
+    /// there. With constraints, all of them satisfy these up to rounding. The run goes on from there by another call.
+    ///
+    /// # Errors
+    /// An [`IntegrationError`] with the time of the last state emitted. Where this call was to make a single step, the
+    /// run is at that state.
+    fn advance<P: Problem<System = S>>(
+        &self,
+        problem: &P,
+        run: &mut Progress<S, Self::StepMemory>,
+        emit: &mut StepCallback<'_, S>,
+    ) -> Result<(), IntegrationError>;
+
+    /// Integrates from `start` to the time `end`: [`start`](Self::start), then [`advance`](Self::advance). When `emit`
+    /// breaks, the run ends there, with the state that it got.
     ///
     /// # Errors
     /// An [`IntegrationError`] with the time of the last state emitted.
+    #[inline]
     fn drive<P: Problem<System = S>>(
         &self,
         problem: &P,
@@ -60,7 +124,13 @@ pub trait Control<S: GaussSystem> {
         end: S::Scalar,
         limit: u64,
         emit: &mut StepCallback<'_, S>,
-    ) -> Result<State<S>, IntegrationError>;
+    ) -> Result<State<S>, IntegrationError> {
+        let mut run = self.start(problem, start, end, limit, emit)?;
+        if !run.ended {
+            self.advance(problem, &mut run, emit)?;
+        }
+        Ok(run.state)
+    }
 
     /// The errors that a step may have, where the control has such a bound.
     fn tolerance(&self) -> Option<Tolerance> {

@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 
 use crate::integrate::drive::cause::{StopPlace, StopReason, cause};
-use crate::integrate::drive::control::{Control, StepCallback, StepStatistics, one_step, prepare};
+use crate::integrate::drive::control::{Control, Progress, StepCallback, StepStatistics, one_step, prepare};
 use crate::integrate::drive::projection::accept;
 use crate::integrate::lie_group::rkmk::Rkmk;
 use crate::integrate::problem::equations::Problem;
@@ -84,75 +84,83 @@ pub fn further(a: f64, b: f64) -> f64 {
     if a.abs() > b.abs() { a } else { b }
 }
 
-/// A run by steps of one length, the last one ending where it should.
-pub(in crate::integrate) struct OneLength<S: GaussSystem> {
-    /// State of the run, and the derivatives there.
-    pub state: State<S>,
-    pub rates: Rates<S>,
-    start: S::Scalar,
-    end: S::Scalar,
+/// Steps of one length, the last one ending where it should, as a run makes them.
+#[derive(Clone, Copy, Debug)]
+pub struct EqualSteps<T> {
+    start: T,
     /// Length of a step, with the sign of the direction.
-    h: S::Scalar,
+    h: T,
     /// Numbers of all steps, and of those that are made.
-    pub steps: u64,
-    pub made: u64,
+    steps: u64,
+    made: u64,
     /// Whether the method is stable where steps are longer than the fastest decay.
     stiff: bool,
 }
 
-impl<S: GaussSystem> OneLength<S> {
-    /// Steps of length |length|, of which none is made; the start instead where the run has ended with that.
+impl<T: Real> EqualSteps<T> {
+    /// A run by steps of length |length|, of which none is made, with what else its method remembers.
     #[inline]
-    pub fn new<P: Problem<System = S>>(
-        (length, stiff): (S::Scalar, bool),
+    pub(in crate::integrate) fn start<S: GaussSystem<Scalar = T>, P: Problem<System = S>, R>(
+        ((length, stiff), rest): ((T, bool), R),
         problem: &P,
         start: &State<S>,
-        end: S::Scalar,
+        end: T,
         limit: u64,
         emit: &mut StepCallback<'_, S>,
-    ) -> Result<Result<Self, State<S>>, IntegrationError> {
+    ) -> Result<Progress<S, (Self, R)>, IntegrationError> {
         let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
         let positive = length.lane(0).abs();
         if !(positive.is_finite() && positive > 0.0) {
             return Err(stopped(start, IntegrationErrorKind::InvalidStep { step: length.lane(0) }));
         }
         let (span, state, rates) = prepare(problem, start, end).map_err(|kind| stopped(start, kind))?;
-        if emit(&state, &rates, StepStatistics::default()).is_break() || span == 0.0 {
-            return Ok(Err(state));
-        }
-        let time = further(state.t.lane(0), end.lane(0));
-        let steps = steps_within::<S::Scalar>(span, time, positive, limit).map_err(|kind| stopped(&state, kind))?;
         let h = if (span < 0.0) == (length.lane(0) < 0.0) { length } else { -length };
-        Ok(Ok(Self { state, rates, start: state.t, end, h, steps, made: 0, stiff }))
+        let none = Self { start: state.t, h, steps: 0, made: 0, stiff };
+        let mut run = Progress::new((state, rates), end, (none, rest), emit);
+        if !run.ended {
+            let time = further(state.t.lane(0), end.lane(0));
+            let steps = steps_within::<T>(span, time, positive, limit).map_err(|kind| stopped(&state, kind))?;
+            run.memory.0.steps = steps;
+        }
+        Ok(run)
+    }
+
+    /// The number of all steps.
+    pub(in crate::integrate) fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// The number of steps that are made.
+    pub(in crate::integrate) fn made(&self) -> u64 {
+        self.made
     }
 
     /// Whether the last step has the length of the others, but for a millionth.
-    pub fn ends_with_a_whole_step(&self) -> bool {
-        let (last, length) = ((self.end - self.time(self.steps - 1)).lane(0), self.h.lane(0));
+    pub(in crate::integrate) fn ends_with_a_whole_step(&self, end: T) -> bool {
+        let (last, length) = ((end - time(self.start, self.h, self.steps - 1)).lane(0), self.h.lane(0));
         (last.abs() - length.abs()).abs() <= 1e-6 * length.abs()
     }
 
-    /// The time after so many steps.
-    pub fn time(&self, made: u64) -> S::Scalar {
-        time(self.start, self.h, made)
-    }
-
     /// Length of a step, with the sign of the direction.
-    pub fn length(&self) -> S::Scalar {
+    pub(in crate::integrate) fn length(&self) -> T {
         self.h
     }
+}
 
-    /// Goes on until so many steps are made, each by `advance`; whether anybody wants more.
+impl<S: GaussSystem, R> Progress<S, (EqualSteps<S::Scalar>, R)> {
+    /// Goes on until so many steps are made, each by `advance` from the rest of the memory; whether anybody wants more.
     #[inline(always)]
-    pub fn until<P: Problem<System = S>>(
+    pub(in crate::integrate) fn until<P: Problem<System = S>>(
         &mut self,
         made: u64,
         problem: &P,
         emit: &mut StepCallback<'_, S>,
-        mut advance: impl FnMut(&State<S>, &Rates<S>, S::Scalar) -> Result<Advanced<S>, IntegrationErrorKind>,
+        mut advance: impl FnMut(&mut R, &State<S>, &Rates<S>, S::Scalar) -> Result<Advanced<S>, IntegrationErrorKind>,
     ) -> Result<ControlFlow<()>, IntegrationError> {
         // Copies, so that what steps work on stays in registers.
-        let Self { mut state, mut rates, start, end, h, steps, made: mut n, stiff } = *self;
+        let (now, rest) = &mut self.memory;
+        let EqualSteps { start, h, steps, made: mut n, stiff } = *now;
+        let (mut state, mut rates, end) = (self.state, self.rates, self.end);
         let mut flow = ControlFlow::Continue(());
         while n < made && flow.is_continue() {
             let last = n + 1 == steps;
@@ -162,14 +170,15 @@ impl<S: GaussSystem> OneLength<S> {
                 let place = StopPlace { state: &state, rates: &rates, length, left, stiff, lanes: 0..S::Scalar::LANES };
                 IntegrationError::at(problem, &state, cause(problem, &place, StopReason::Step(kind)))
             };
-            let (mut next, known) = advance(&state, &rates, this).map_err(failed)?;
+            let (mut next, known) = advance(rest, &state, &rates, this).map_err(failed)?;
             n += 1;
             next.t = if last { end } else { time(start, h, n) };
             let there = accept(problem, (&state, &rates), &mut next, known).map_err(failed)?;
             (state, rates) = (next, there);
             flow = emit(&state, &rates, StepStatistics::default());
         }
-        (self.state, self.rates, self.made) = (state, rates, n);
+        now.made = n;
+        (self.state, self.rates, self.ended) = (state, rates, n == steps);
         Ok(flow)
     }
 }
@@ -180,36 +189,32 @@ fn time<T: Real>(start: T, h: T, made: u64) -> T {
     T::from_f64(made as f64).fma(h, start)
 }
 
-/// All steps of such a run.
-#[inline]
-pub(in crate::integrate) fn steps_of_one_length<S: GaussSystem, P: Problem<System = S>>(
-    how: (S::Scalar, bool),
-    problem: &P,
-    start: State<S>,
-    end: S::Scalar,
-    limit: u64,
-    emit: &mut StepCallback<'_, S>,
-    advance: impl FnMut(&State<S>, &Rates<S>, S::Scalar) -> Result<Advanced<S>, IntegrationErrorKind>,
-) -> Result<State<S>, IntegrationError> {
-    match OneLength::new(how, problem, &start, end, limit, emit)? {
-        Ok(mut run) => run.until(run.steps, problem, emit, advance).map(|_| run.state),
-        Err(ended) => Ok(ended),
-    }
-}
-
 impl<S: GaussSystem, M: OneStep<S>> Control<S> for Fixed<S::Scalar, M> {
-    fn drive<P: Problem<System = S>>(
+    type StepMemory = (EqualSteps<S::Scalar>, ());
+
+    #[inline]
+    fn start<P: Problem<System = S>>(
         &self,
         problem: &P,
         start: State<S>,
         end: S::Scalar,
         limit: u64,
         emit: &mut StepCallback<'_, S>,
-    ) -> Result<State<S>, IntegrationError> {
-        let how = (self.step, self.method.properties().stiff);
-        steps_of_one_length(how, problem, start, end, limit, emit, |state, rates, h| {
+    ) -> Result<Progress<S, Self::StepMemory>, IntegrationError> {
+        EqualSteps::start(((self.step, self.method.properties().stiff), ()), problem, &start, end, limit, emit)
+    }
+
+    #[inline]
+    fn advance<P: Problem<System = S>>(
+        &self,
+        problem: &P,
+        run: &mut Progress<S, Self::StepMemory>,
+        emit: &mut StepCallback<'_, S>,
+    ) -> Result<(), IntegrationError> {
+        let flow = run.until(run.memory.0.steps, problem, emit, |(), state, rates, h| {
             self.method.step(problem, state, rates, h).map(|step| (step.state, step.rates))
-        })
+        });
+        flow.map(|_| ())
     }
 
     fn within<P: Problem<System = S>>(
