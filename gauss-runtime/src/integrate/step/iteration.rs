@@ -15,14 +15,14 @@ const IDLE_SWEEPS: u32 = 4;
 const FAR: f64 = 0.1;
 
 /// Follows how much the sweeps of an iteration change, relative to the size of the state.
-pub(in crate::integrate) struct Progress {
+pub(in crate::integrate) struct Convergence {
     sweeps: u32,
     least: f64,
     last: f64,
     idle: u32,
 }
 
-impl Progress {
+impl Convergence {
     pub(in crate::integrate) fn new() -> Self {
         Self { sweeps: 0, least: f64::INFINITY, last: 0.0, idle: 0 }
     }

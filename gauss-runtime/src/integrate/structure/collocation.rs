@@ -18,7 +18,7 @@ use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::step::checks::{check_chart, check_increment};
-use crate::integrate::step::iteration::{Progress, relative_change, worst};
+use crate::integrate::step::iteration::{Convergence, relative_change, worst};
 use crate::integrate::step::one_step::{IncrementStep, OneStep, Properties, Step, check_contacts};
 use crate::real::Real;
 use crate::system::GaussSystem;
@@ -187,7 +187,7 @@ impl<Sys: GaussSystem, const S: usize> IncrementStep<Sys> for Collocation<Sys::S
         let mut parts: [Rates<Sys>; S] = core::array::from_fn(|j| self.weighted(j, h, rates));
         let mut sum = total(&parts);
 
-        let mut progress = Progress::new();
+        let mut progress = Convergence::new();
         loop {
             let middle = state.q.retract(&sum.configuration.scale(half));
             let y = state.y.add_scaled(half, &sum.variables);

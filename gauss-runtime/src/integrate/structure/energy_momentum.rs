@@ -24,7 +24,7 @@ use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State};
 use crate::integrate::step::checks::{check_chart, check_increment};
-use crate::integrate::step::iteration::{Progress, relative_change, worst};
+use crate::integrate::step::iteration::{Convergence, relative_change, worst};
 use crate::integrate::step::one_step::{IncrementStep, OneStep, Properties, Step, check_contacts};
 use crate::lie::se3::{join, split};
 use crate::lie::{coefficients, se2, se3, so3};
@@ -271,7 +271,7 @@ where
 
         // A is constant in this chart: it takes changes of z to changes of p.
         let mut faster = S::Speeds::zero();
-        let mut progress = Progress::new();
+        let mut progress = Convergence::new();
         let (sigma, change) = loop {
             let mean = z.add_scaled(half, &faster);
             let sigma = mean.scale(h);

@@ -6,7 +6,7 @@ use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State};
 use crate::integrate::step::checks::{check_chart, check_increment};
-use crate::integrate::step::iteration::{Progress, relative_change, worst};
+use crate::integrate::step::iteration::{Convergence, relative_change, worst};
 use crate::integrate::step::one_step::{OneStep, Properties, Step, check_contacts};
 use crate::real::Real;
 use crate::system::GaussSystem;
@@ -61,7 +61,7 @@ where
         let mut xi = problem.speeds(*t, q, y);
         let mut momentum = system.momentum(*t, q, &xi);
         let size = pushed.max_norm();
-        let mut progress = Progress::new();
+        let mut progress = Convergence::new();
         loop {
             let defect = pushed.add_scaled(-one, &transposed::<S>(&xi.scale(-h), &momentum));
             xi = xi.add_scaled(one, &system.velocity(*t, q, &defect));
@@ -76,7 +76,7 @@ where
         let (t, q) = (*t + h, q.advance(&increment));
         let carried = transposed::<S>(&increment, &momentum);
         let mut end = carried;
-        let mut progress = Progress::new();
+        let mut progress = Convergence::new();
         loop {
             let next = carried.add_scaled(half, &force(problem, t, &q, &end));
             let residual = change::<S>(&end, &next, size.max(next.max_norm()));

@@ -19,7 +19,7 @@ use crate::integrate::drive::summary::{End, Summary};
 use crate::integrate::drive::trajectory::{EventSample, RunData};
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
-use crate::integrate::problem::state::{Rates, Sample, State, copy_and_debug};
+use crate::integrate::problem::state::{Rates, State, copy_and_debug};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -212,7 +212,7 @@ pub(in crate::integrate) enum Way {
     Whole,
 }
 
-/// How a step of a run ended.
+/// The end of a step of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum StepOutcome {
@@ -230,7 +230,7 @@ pub enum StepOutcome {
 enum Cut<S: GaussSystem> {
     Stopped(State<S>, usize),
     Jumped(State<S>, usize),
-    /// With the last state before.
+    /// An error, after the last good state.
     Failed(IntegrationErrorKind, State<S>),
 }
 
@@ -529,18 +529,5 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
             _ => Ok(()),
         });
         (outcome, cut)
-    }
-}
-
-/// The state at a time within a step of a run, which the method reaches from the start of that step.
-pub(in crate::integrate) fn within_step<S: GaussSystem, P: Problem<System = S>, C: Control<S>>(
-    problem: &P,
-    control: &C,
-    from: &State<S>,
-    t: S::Scalar,
-) -> Result<Sample<S>, IntegrationError> {
-    match control.within(problem, from, &problem.rates(from), t - from.t) {
-        Ok(end) => Ok(problem.sample(&State { t, ..end })),
-        Err(kind) => Err(IntegrationError::at(problem, from, kind)),
     }
 }

@@ -4,11 +4,11 @@ use core::fmt;
 use core::ops::Range;
 
 use crate::configuration::Configuration;
-use crate::integrate::drive::control::Control;
+use crate::integrate::drive::control::{Control, within_step};
 use crate::integrate::drive::event::{Events, NoEvents};
 use crate::integrate::drive::observer::{Observer, Unobserved};
 pub use crate::integrate::drive::run::StepOutcome;
-use crate::integrate::drive::run::{Run, RunItem, RunProgress, Way, within_step};
+use crate::integrate::drive::run::{Run, RunItem, RunProgress, Way};
 use crate::integrate::drive::summary::Summary;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
@@ -74,7 +74,7 @@ pub struct Stepper<P: Problem, C: Control<P::System>, O = Unobserved, E = NoEven
     every: u64,
     limit: Option<u64>,
     run: RunProgress<P::System, C::StepMemory>,
-    /// Where the last step began.
+    /// The start of the last step.
     before: Option<State<P::System>>,
     error: Option<IntegrationError>,
 }

@@ -5,8 +5,7 @@ use core::fmt;
 use alloc::rc::Rc;
 use alloc::vec::Vec;
 
-use crate::integrate::drive::control::{Control, DEFAULT_LIMIT};
-use crate::integrate::drive::run::within_step;
+use crate::integrate::drive::control::{Control, DEFAULT_LIMIT, within_step};
 use crate::integrate::drive::summary::Summary;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};

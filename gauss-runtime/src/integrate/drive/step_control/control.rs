@@ -7,7 +7,7 @@ use crate::integrate::drive::projection::{consistent_start, onto_constraints};
 use crate::integrate::drive::tolerance::Tolerance;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, RunPart};
-use crate::integrate::problem::state::{Rates, State};
+use crate::integrate::problem::state::{Rates, Sample, State};
 use crate::integrate::step::checks::is_in_range;
 use crate::integrate::step::one_step::{OneStep, check_contacts};
 use crate::real::Real;
@@ -49,7 +49,7 @@ pub struct Progress<S: GaussSystem, M> {
     pub end: S::Scalar,
     /// Whether the run is there, or was ended before its first step.
     pub ended: bool,
-    /// What the choice of steps remembers.
+    /// The memory of the choice of steps.
     pub memory: M,
 }
 
@@ -183,6 +183,19 @@ pub(in crate::integrate) fn one_step<S: GaussSystem, M: OneStep<S>, P: Problem<S
 ) -> Result<State<S>, IntegrationErrorKind> {
     let end = method.step(problem, state, rates, h)?.state;
     if S::CONSTRAINED { onto_constraints(problem, (state, rates), &end) } else { Ok(end) }
+}
+
+/// The state at a time within a step of a run, which the method reaches from the start of that step.
+pub(in crate::integrate) fn within_step<S: GaussSystem, P: Problem<System = S>, C: Control<S>>(
+    problem: &P,
+    control: &C,
+    from: &State<S>,
+    t: S::Scalar,
+) -> Result<Sample<S>, IntegrationError> {
+    match control.within(problem, from, &problem.rates(from), t - from.t) {
+        Ok(end) => Ok(problem.sample(&State { t, ..end })),
+        Err(kind) => Err(IntegrationError::at(problem, from, kind)),
+    }
 }
 
 /// Refuses tolerances that are negative, not finite, or both zero.
