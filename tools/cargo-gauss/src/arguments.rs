@@ -39,7 +39,7 @@ pub struct Show {
     /// page.
     #[arg(long, value_delimiter = ',')]
     pub charts: Vec<String>,
-    /// With programs, C or Rust: these methods alone, with commas.
+    /// With `program`, `c`, `casadi` and `functions`: these methods alone, with commas.
     #[arg(long = "method", value_delimiter = ',')]
     pub methods: Vec<String>,
     /// Writes to this file in place of the terminal.

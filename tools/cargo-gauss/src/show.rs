@@ -18,6 +18,10 @@ use crate::{page, robots, structs};
 /// # Errors
 /// What is wrong with the file, the names or the structs, each with its place.
 pub fn show(wanted: &Show) -> Result<(), String> {
+    let of_methods = matches!(wanted.form, Form::Program | Form::C | Form::Casadi | Form::Functions);
+    if !wanted.methods.is_empty() && !of_methods {
+        return Err("`--method` goes with `--as program`, `c`, `casadi` or `functions`".to_owned());
+    }
     let file = wanted.file.display().to_string();
     let source = fs::read_to_string(&wanted.file).map_err(|error| format!("{file}: {error}"))?;
     // A first line may name a program that runs the file.

@@ -68,6 +68,13 @@ fn every_form_is_printed() {
     assert!(of("functions").contains("pub fn acceleration"));
     let one = printed(&["show", file.to_str().expect("UTF-8"), "Swing", "--as", "program", "--method", "acceleration"]);
     assert!(one.starts_with("acceleration") && of("program").contains(&one));
+    assert!(of("casadi").contains("int jac_swing_acceleration("));
+    let of_method = |form: &str, names: &str| {
+        ["show", file.to_str().expect("UTF-8"), "Swing", "--as", form, "--method", names].map(str::to_owned)
+    };
+    let call = |arguments: &[String; 7]| refused(&arguments.each_ref().map(String::as_str));
+    assert!(call(&of_method("latex", "acceleration")).contains("`--method` goes with `--as program`"));
+    assert!(call(&of_method("c", "nonsense,acceleration")).starts_with("Swing has no method `nonsense`; it has "));
 }
 
 #[test]
