@@ -67,9 +67,8 @@ pub struct Pair {
     pub at: At,
     /// Both, in the order of the file.
     pub shapes: [Collision; 2],
-    /// The law by which they touch; `None` where that is not read: then they do not, whatever else the file says of
-    /// them.
-    pub touch: Option<Touch>,
+    /// The law by which they touch, or why that is not read: then they do not, whatever else the file says of them.
+    pub touch: Result<Touch, &'static str>,
     /// Attributes that act where they touch, and are not read.
     pub unread: Vec<&'static str>,
 }

@@ -8,6 +8,9 @@ use crate::names::unknown;
 
 const PAIR: &[&str] = &["pair"];
 
+/// Why a pair is not read.
+const TWO_FRICTIONS: &str = "its friction differs along both tangents, whose directions are MuJoCo's own";
+
 impl<'a> File<'a> {
     /// Reads the pairs that touch by themselves, and those that do not, once all geoms are known; nothing where
     /// contacts are switched off.
@@ -42,9 +45,7 @@ impl<'a> File<'a> {
             let friction = own.first().copied().unwrap_or(1.0);
             let is_read = dimension == 1 || own.get(1).is_none_or(|second| *second == friction);
             if !is_read {
-                let text = "its friction differs along both tangents, whose directions are MuJoCo's own: these two do not \
-                            touch";
-                self.ignored(node, text);
+                self.ignored(node, &format!("{TWO_FRICTIONS}: these two do not touch"));
             }
             let mut unread = Vec::new();
             for name in ["margin", "gap", "adhesion"] {
@@ -52,7 +53,7 @@ impl<'a> File<'a> {
                 unread.extend(acts.then_some(name));
             }
             let friction = if dimension > 1 { friction } else { 0.0 };
-            let touch = is_read.then_some(Touch { friction, turns: dimension > 3 });
+            let touch = if is_read { Ok(Touch { friction, turns: dimension > 3 }) } else { Err(TWO_FRICTIONS) };
             if let [Some(Ok(first)), Some(Ok(second))] = shapes {
                 let at = self.reading.at(node);
                 self.description.pairs.push(Pair { at, shapes: [first, second], touch, unread });
@@ -111,7 +112,7 @@ mod tests {
         let read = described(r#"geom1="g" geom2="f" friction="0.2 0.4""#).unwrap();
         // Nor do they touch by their own bits.
         assert!(
-            read.pairs[0].touch.is_none() && read.notes.iter().any(|note| note.text.contains("along both tangents"))
+            read.pairs[0].touch.is_err() && read.notes.iter().any(|note| note.text.contains("along both tangents"))
         );
     }
 }

@@ -136,12 +136,37 @@ fn parse(owner: &str, tokens: &[TokenTree], context: &mut Context) -> Option<Exp
                     other => other.span(),
                 });
                 context.error(last, format!("the expression of `{owner}` breaks off here; write its other part"));
+            } else if let Some((point, digits)) = point_without_zero(tokens.iter().cloned()) {
+                context
+                    .error(point, format!("a number begins with a digit; write `0.{digits}` in place of `.{digits}`"));
             } else {
                 context.error(error.span(), format!("`{owner}` is no expression: {text}; {ALLOWED}"));
             }
             None
         }
     }
+}
+
+/// The first number like `.5`, at its point, with its digits.
+fn point_without_zero(tokens: impl IntoIterator<Item = TokenTree>) -> Option<(Span, String)> {
+    let (mut point, mut is_after_operand) = (None, false);
+    for token in tokens {
+        let found = match (&token, point) {
+            (TokenTree::Literal(digits), Some(span)) => Some((span, digits.to_string())),
+            (TokenTree::Group(group), _) => point_without_zero(group.stream()),
+            _ => None,
+        };
+        if found.is_some() {
+            return found;
+        }
+        (point, is_after_operand) = match &token {
+            // The second point of a range is none of a number.
+            TokenTree::Punct(sign) if sign.as_char() == '.' => ((!is_after_operand).then(|| sign.span()), true),
+            TokenTree::Punct(_) => (None, false),
+            _ => (None, true),
+        };
+    }
+    None
 }
 
 fn convert(expression: &Expr, context: &mut Context) -> Option<Expression> {

@@ -56,7 +56,7 @@ impl Robot<'_> {
             own.extend(clear.first().map(|first| told_of_clear(first, clear.len())));
             own.dedup();
             match made.count() - earlier {
-                0 => refuse_idle(ground, &own, context),
+                0 => self.refuse_idle(ground, &own, context),
                 count => notes.extend(self.told(count)),
             }
             notes.extend(own);
@@ -191,6 +191,19 @@ impl Robot<'_> {
         let steps = self.description.collisions.iter().filter(is_step);
         steps.map(|collision| unread(collision, "a shape of the world that is no plane")).collect()
     }
+
+    fn refuse_idle(&self, ground: &Ground, notes: &[Note], context: &mut Context) {
+        let mut why = self.pairs_without_law(true);
+        why.extend(notes.iter().map(|note| note.text.clone()));
+        context.error(
+            ground.span,
+            format!(
+                "nothing of the file touches this ground{}; a link that moves needs a sphere, box, capsule, cylinder \
+                 or ellipsoid, or write `contact(…)` of your own points",
+                in_brackets(&why)
+            ),
+        );
+    }
 }
 
 /// The plane that a clause says by numbers, or that through Ω.
@@ -220,7 +233,7 @@ fn touch(collision: &Collision, plane: Option<&Collision>, description: &Descrip
     let Some(own) = &collision.surface else { return Some(Touch { friction: 0.0, turns: false }) };
     let pairs = || description.pairs.iter();
     if let Some(pair) = plane.and_then(|plane| pairs().find(|pair| pair.is_of([collision, plane]))) {
-        return pair.touch.clone();
+        return pair.touch.clone().ok();
     }
     let link = plane.map_or(WORLD, |plane| plane.link.as_str());
     let of_plane = plane.and_then(|plane| plane.surface.as_ref());
@@ -229,16 +242,9 @@ fn touch(collision: &Collision, plane: Option<&Collision>, description: &Descrip
     meets.then(|| of_plane.map_or_else(|| own.alone(), |plane| own.with(plane)))
 }
 
-fn refuse_idle(ground: &Ground, notes: &[Note], context: &mut Context) {
-    let why: Vec<&str> = notes.iter().map(|note| note.text.as_str()).take(3).collect();
-    let why = if why.is_empty() { String::new() } else { format!(" ({})", why.join("; ")) };
-    context.error(
-        ground.span,
-        format!(
-            "nothing of the file touches this ground{why}; a link that moves needs a sphere, box, capsule, cylinder \
-             or ellipsoid, or write `contact(…)` of your own points"
-        ),
-    );
+/// Reasons in a message: three, at most.
+pub fn in_brackets(reasons: &[String]) -> String {
+    if reasons.is_empty() { String::new() } else { format!(" ({})", reasons[..reasons.len().min(3)].join("; ")) }
 }
 
 /// The word by which `ignore(…)` knows it.

@@ -2,7 +2,7 @@
 //! closed form.
 
 use super::clauses::Robot;
-use super::ground::{WORLD, beyond};
+use super::ground::{WORLD, beyond, in_brackets};
 use super::touching::{ContactClauses, LinkPair};
 use crate::model::language::context::Context;
 use crate::model::language::self_contact::SelfContact;
@@ -47,12 +47,26 @@ impl Robot<'_> {
             let count = made.count() - earlier;
             notes.extend(self.told_of_pairs(count, &unread));
             if count == 0 && context.count() == mistakes {
-                let text = "no links of the file touch each other here; those that do are spheres, or a sphere and a \
-                            capsule, of two links that the file lets touch and of which one moves";
+                let why = in_brackets(&self.pairs_without_law(false));
+                let text = format!(
+                    "no links of the file touch each other here{why}; those that do are spheres, or a sphere and a \
+                     capsule, of two links that the file lets touch and of which one moves"
+                );
                 context.error(clause.span, text);
             }
         }
         self.notes.extend(notes);
+    }
+
+    /// Why pairs of the file do not touch whose law is not read: those with a plane, or the others.
+    pub fn pairs_without_law(&self, with_plane: bool) -> Vec<String> {
+        let pairs = self.description.pairs.iter();
+        let asked = pairs.filter(|pair| pair.shapes.iter().any(|own| own.shape == Shape::Plane) == with_plane);
+        let told = asked.filter_map(|pair| {
+            let ([a, b], why) = (pair.shapes.each_ref().map(named), pair.touch.as_ref().err()?);
+            Some(format!("the pair of {a} and {b} does not touch: {why}"))
+        });
+        told.collect()
     }
 
     /// Pairs of the file, where no links touch each other.
@@ -96,7 +110,7 @@ impl Robot<'_> {
         for pair in pairs {
             let shapes = pair.shapes.each_ref();
             let meet = shapes.iter().all(|own| own.shape != Shape::Plane) && self.may_meet(shapes, links);
-            let touch = pair.touch.clone().filter(|_| meet);
+            let touch = pair.touch.as_ref().ok().filter(|_| meet).cloned();
             all.extend(touch.map(|touch| Candidate { shapes, touch }));
         }
         let shapes: Vec<&Collision> =

@@ -312,6 +312,12 @@ mod mjcf {
         assert_eq!(count("<geom size=\"0.1\" contype=\"2\" conaffinity=\"3\"/>", ""), 2);
         assert_eq!(count(foot, "<contact><exclude body1=\"world\" body2=\"leg\"/></contact>"), 0);
         assert_eq!(count(foot, "<option><flag contact=\"disable\"/></option>"), 0);
+        // A law that is not read says so.
+        let rough = "<contact><pair geom1=\"foot\" geom2=\"floor\" friction=\"1 0.5\"/></contact>";
+        let found = read(&file(FLOOR, foot, rough).of(", ground", "")).err().map(|error| error.to_string());
+        let why = "nothing of the file touches this ground (the pair of `foot` of `leg` and `floor` of `world` does not \
+                   touch: its friction differs along both tangents, whose directions are MuJoCo's own); a link";
+        assert!(found.as_ref().is_some_and(|found| found.starts_with(why)), "{found:?}");
     }
 
     /// Parts of contacts in a file that are not modelled are warned of where they would act.

@@ -123,7 +123,9 @@ fn pairs_of_a_file() {
     // A pair that is not read does not touch by other rules either; surfaces that move are told of without any contact.
     let rough = text("filterparent=\"disable\"").replace("condim=\"1\"", "friction=\"1 0.5\"");
     let found = mistakes_of(&rough, ", self_contact");
-    assert!(found.contains("no links of the file touch each other here"), "{found}");
+    let why = "no links of the file touch each other here (the pair of `f` of `a` and `g` of `b` does not touch: its \
+               friction differs along both tangents, whose directions are MuJoCo's own); those that do";
+    assert!(found.contains(why), "{found}");
     let belt = text("").replace("size=\"1\"/>", "size=\"1\" surfacevel=\"0 0 0 1\" adhesion=\"2\"/>");
     let file = Scratch::called(&belt, "xml");
     let remarks = super::read(&file.of("", "")).expect("a struct").item.described.expect("a file").remarks;

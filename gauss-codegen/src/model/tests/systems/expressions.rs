@@ -29,6 +29,11 @@ fn forms() {
     check_potential("\"x\"", &[("\"x\"", &format!("`\"x\"` is no number; {ALLOWED}"))]);
     check_potential("x +", &[("+", "the expression of `potential` breaks off here; write its other part")]);
     check_potential("1 x", &[("x", &format!("`potential` is no expression: unexpected token; {ALLOWED}"))]);
+    let half = "a number begins with a digit; write `0.5` in place of `.5`";
+    for number in [".5", "x + .5", "-.5 * x", "x * sin(.5)", "cross([.5, 0, 0], x)"] {
+        check_potential(number, &[(".", half)]);
+    }
+    check_potential("x + .5e-3", &[(".", "a number begins with a digit; write `0.5e-3` in place of `.5e-3`")]);
     // All of them, not only the first.
     check_potential("x == if y { 1 } else { 2 }", &[("==", &outside("`==`")), ("if", &outside("`if`"))]);
 }
