@@ -9,8 +9,9 @@ use crate::run::ContactRun;
 use crate::steps::ContactSteps;
 
 /// The contact forces of a [`Simulation`] of a scene with contacts: from event to event, or in steps. Kernel, input,
-/// steps, events, `every` and `max_steps` are those of the simulation; both runs give a record that tables, pages and
-/// plots take ([`ContactRecord`](crate::ContactRecord)).
+/// steps, events, `every` and `max_steps` are those of the simulation, but that steps refuse `every`: in its place they
+/// have [`visit`](ContactSteps::visit). Both runs give a record that tables, pages and plots take
+/// ([`ContactRecord`](crate::ContactRecord)).
 ///
 /// ```
 /// use gauss_contact::WithContacts;
