@@ -2,9 +2,10 @@
 #![deny(missing_docs)]
 
 // `export` (what is refused, what is written where), `variables` (names, units, roles), `xml`, `code` (sizes, tables
-// and functions in C of one scene), `units`, `binary` (the C compiler), `archive`. In `c`, C that every FMU has: `fmu` includes all others, `checks` (what `kernel()`
-// checks), `contacts`, `motion` (rates, outputs, derivatives), `variables` (values by reference, and the life of an
-// instance), `steps` (co-simulation), `fmi2` and `fmi3` (the functions of each version).
+// and functions in C of one scene), `units`, `binary` (the C compiler), `archive`. In `c`, C that every FMU has: `fmu`
+// includes all others, `checks` (what `kernel()` checks), `contacts`, `motion` (rates, outputs, derivatives),
+// `variables` (values by reference, and the life of an instance), `steps` (co-simulation), `fmi2` and `fmi3` (the
+// functions of each version).
 mod archive;
 mod binary;
 mod code;

@@ -38,7 +38,7 @@ pub fn source(functions: &Functions) -> String {
     out
 }
 
-/// What stands before the functions of programs: the equations, and what they call.
+/// Equations, and functions that programs call: they stand before the programs.
 pub(super) fn beginning<'a>(equations: &str, programs: impl Iterator<Item = &'a Program> + Clone) -> String {
     let mut out = comment(equations);
     out.push_str("#include <math.h>\n");

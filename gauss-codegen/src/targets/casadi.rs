@@ -1,10 +1,11 @@
-//! C99 with the interface of CasADi's `external`: the functions of a struct, their first derivatives as sparse matrices,
-//! and what Hessians are made of.
+//! C99 with the interface of CasADi's `external`: the functions of a struct, their first derivatives as sparse
+//! matrices, and what Hessians are made of.
 //!
-//! Every method `f` becomes four functions, which CasADi finds by their names: `f`, `jac_f` (∂f/∂x), `adj1_f` (∂f/∂xᵀ w)
-//! and `fwd1_adj1_f`, the change of the last along a direction. Arguments and results have the names, and but for matrices the shapes, of the method; matrices
-//! stand by columns, as CasADi has them. In place of the constants of a kernel the parameters are an argument, so that
-//! derivatives by parameters are there too. Nothing is kept between calls, which may come from several threads.
+//! Every method `f` becomes four functions, which CasADi finds by their names: `f`, `jac_f` (∂f/∂x), `adj1_f` (∂f/∂xᵀ
+//! w) and `fwd1_adj1_f`, the change of the last along a direction. Arguments and results have the names, and but for
+//! matrices the shapes, of the method; matrices stand by columns, as CasADi has them. In place of the constants of a
+//! kernel the parameters are an argument, so that derivatives by parameters are there too. Nothing is kept between
+//! calls, which may come from several threads.
 //!
 //! ```
 //! let top = "#[gauss(motion = fixed_point)] struct Top { #[gauss(mass)] m: f64, #[gauss(inertia)] i: Vector3<f64> }";

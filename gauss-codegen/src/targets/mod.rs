@@ -1,4 +1,5 @@
-//! Programs as source text, in Rust and in C99, for CasADi too. A target is a module that reads [`Program`]s and writes code.
+//! Programs as source text, in Rust and in C99, for CasADi too. A target is a module that reads [`Program`]s and writes
+//! code.
 
 use std::fmt::Write;
 

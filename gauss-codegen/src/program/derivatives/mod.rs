@@ -17,11 +17,11 @@ use super::{Argument, ArgumentKind, Code, Input, Malformed, Operand, Program, Re
 
 /// A program of derivatives that are not 0 everywhere, and where each stands in its matrix.
 pub struct SparseJacobian {
-    /// A result of one column for each of the results of the program and each of its arguments, all arguments of the
-    /// first result first: the entries by columns, in each from the top.
+    /// A result of one column for each result of the program and each of its arguments, all arguments of the first
+    /// result first: the entries by columns, in each from the top.
     pub program: Program,
-    /// Rows and columns of the entries of each result: a row is an output among those of its result, a column a component
-    /// of the argument.
+    /// Rows and columns of the entries of each result: a row is an output among those of its result, a column a
+    /// component of the argument.
     pub places: Vec<Vec<(usize, usize)>>,
 }
 
