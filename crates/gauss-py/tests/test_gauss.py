@@ -289,7 +289,7 @@ def test_joints_are_locked():
     np.testing.assert_allclose(rest[:, 0], 0, atol=50 * 20 * EPS)
     assert np.abs(rest[:, 1]).max() > 1
     with pytest.raises(gauss.SceneError, match="is no coordinate, and a lock holds one; did you mean `elbow`"):
-        gauss.load(ARM, ["lock(elbo = 0.7)"])
+        gauss.load(ARM, ["lock(elbo = 0.7)"], gravity=9.81)
 
 
 def test_gravity_has_three_components_or_one():
