@@ -95,7 +95,7 @@ fn methods_for_clauses() {
 fn all_methods_of_runs() {
     const RUNS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../gauss-runtime/src/integrate/drive/runs");
     // Those that nobody takes for a clause of a scene: constructors, questions to a simulation, what fronts hand on.
-    let others = ["new", "of", "problem", "boxed", "control", "events_by", "into_parts"];
+    let others = ["new", "of", "problem", "boxed", "control", "events_by", "into_parts", "stepper"];
     let mut found = Vec::new();
     for file in ["simulation.rs", "sampling.rs"] {
         let text = std::fs::read_to_string(format!("{RUNS}/{file}")).expect("the runtime");
