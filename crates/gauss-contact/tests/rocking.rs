@@ -9,15 +9,16 @@ use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::prelude::*;
 
-const G: f64 = 9.81;
+#[path = "laws/common.rs"]
+#[allow(dead_code, reason = "scenes of the other tests")]
+mod common;
+#[path = "laws/rod.rs"]
+mod rod;
 
-/// Numbers in (−1, 1): a linear congruence with the constants of Knuth's MMIX.
-fn numbers(mut seed: u64) -> impl FnMut() -> f64 {
-    move || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (seed >> 11) as f64 / 4_503_599_627_370_496.0 - 1.0
-    }
-}
+use common::numbers;
+use rod::Rod;
+
+const G: f64 = 9.81;
 
 /// A rectangle in its plane on its corners.
 #[derive(GaussDynamics)]
@@ -189,24 +190,6 @@ fn blocks_that_bounce_rock_and_slide_end_on_their_face_or_side() {
             assert_eq!(last.z.amax(), 0.0, "{n} {law:?} b {b} mu {mu} e {e}: {:?}", run.modes(12.0));
         }
     }
-}
-
-/// A rod on its ends.
-#[derive(GaussDynamics)]
-#[gauss(
-    coordinates(x, y, a),
-    body(bar, position = [x, 0, y], rotation = rotation_y(a), mass = m, inertia = j),
-    contact(foot, gap = y - l * sin(a), slip = rate(x + l * cos(a)), friction = mu, restitution = e),
-    contact(head, gap = y + l * sin(a), slip = rate(x - l * cos(a)), friction = mu, restitution = e),
-)]
-struct Rod {
-    m: f64,
-    j: f64,
-    l: f64,
-    mu: f64,
-    e: f64,
-    #[gauss(gravity)]
-    g: f64,
 }
 
 #[test]

@@ -280,9 +280,7 @@ impl Scene<'_> {
 
     /// A function that no other file sees.
     fn function(&self, program: &Program) -> String {
-        let text = c::function(program, PREFIX);
-        // Behind the comment, in which no other `*/` is.
-        format!("\n{}", text.replacen(" */\n", " */\nstatic ", 1))
+        format!("\n{}", c::static_function(program, PREFIX))
     }
 
     fn call(&self, program: &Program, to: &str) -> String {

@@ -79,6 +79,12 @@ impl Model {
         self.model.remarks().to_vec()
     }
 
+    /// The names of contacts, ranges and dry joints.
+    #[getter]
+    fn contacts(&self) -> Vec<&str> {
+        self.model.description().contacts.iter().map(|contact| contact.name.as_str()).collect()
+    }
+
     #[getter]
     fn files(&self) -> Vec<String> {
         self.model.files().to_vec()

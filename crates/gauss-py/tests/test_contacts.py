@@ -36,6 +36,17 @@ def test_a_bouncing_ball_comes_to_rest_when_galileo_says():
         ball.acceleration([0.0, 1.0], [0.0, 0.0])
 
 
+
+def test_functions_for_casadi_say_that_they_leave_contacts_out(tmp_path):
+    ball = gauss.scene(BALL)
+    with pytest.raises(gauss.ContactError, match="^acceleration would have no forces of contacts, .* has floor; say"):
+        ball.casadi(tmp_path / "ball.c", ["acceleration", "mass_matrix"])
+    assert not (tmp_path / "ball.c").exists()
+    ball.casadi(tmp_path / "ball.c", ["gaps", "mass_matrix"])
+    ball.casadi(tmp_path / "open.c", ["acceleration"], without_contacts=True)
+    assert "_acceleration(" in (tmp_path / "open.c").read_text()
+
+
 def test_ensembles_of_blocks_stop_where_coulomb_says():
     text = """coordinates(x, z), particle(mass = m, position = [x, 0, z]), gravity = 9.81,
         contact(floor, gap = z, slip = rate(x), friction = mu)"""

@@ -85,8 +85,14 @@ pub fn function(program: &Program, prefix: &str) -> String {
     out
 }
 
+/// The same, which no other file sees.
+pub fn static_function(program: &Program, prefix: &str) -> String {
+    // Behind the comment, in which no other `*/` is.
+    function(program, prefix).replacen(" */\n", " */\nstatic ", 1)
+}
+
 /// Results of the same name as an argument, and as the function itself, are kept apart from them.
-fn result_name(program: &Program, result: &Results) -> String {
+pub(super) fn result_name(program: &Program, result: &Results) -> String {
     let taken = program.arguments.iter().any(|argument| argument.name == result.name);
     if taken { format!("{}_out", result.name) } else { result.name.clone() }
 }

@@ -89,9 +89,8 @@ impl External {
     /// A method, with its matrices by columns.
     fn of(program: &Program, prefix: &str) -> Result<Self, Malformed> {
         let name = format!("{prefix}_{}", program.name);
-        let taken = |name: &str| program.arguments.iter().any(|argument| argument.name == name);
         let outputs = program.results.iter().filter(|result| result.len() > 0).map(|result| {
-            let name = if taken(&result.name) { format!("{}_out", result.name) } else { result.name.clone() };
+            let name = c::result_name(program, result);
             Port { name, rows: result.rows, columns: result.columns, places: None }
         });
         let mut first = 0;
@@ -163,8 +162,7 @@ impl External {
 
     /// The function, and what CasADi asks of it. `patterns` are those of the file.
     fn write(&self, out: &mut String, patterns: &mut BTreeMap<String, usize>) {
-        let inner = c::function(&self.program, INNER);
-        write!(out, "\n{}", inner.replacen(" */\n", " */\nstatic ", 1)).ok();
+        write!(out, "\n{}", c::static_function(&self.program, INNER)).ok();
         let name = &self.name;
         let mut body = String::new();
         let mut handed = Vec::new();

@@ -75,6 +75,10 @@ pub fn located(file: &Path, mistakes: &syn::Error) -> String {
 fn text(shown: &Shown, form: Form, methods: &[String]) -> Result<String, String> {
     let derivation = &shown.derivation;
     let functions = derivation.functions().only(methods).map_err(|error| error.to_string())?;
+    let touching: Vec<&str> = derivation.description().contacts.iter().map(|contact| contact.name.as_str()).collect();
+    if matches!(form, Form::C | Form::Casadi | Form::Functions) && !touching.is_empty() {
+        eprintln!("{}: forces of contacts ({}) are in none of these functions", shown.title, touching.join(", "));
+    }
     match form {
         Form::Text => Ok(plain(shown)),
         Form::Latex => Ok(derivation.equations(Notation::Latex).to_owned()),

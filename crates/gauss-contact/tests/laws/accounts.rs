@@ -6,28 +6,11 @@ use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::prelude::*;
 
 use crate::common::numbers;
+use crate::rod::Rod;
 use crate::tossed::Crate;
 use crate::turning::Ball;
 
 const G: f64 = 9.81;
-
-/// A rod on its ends.
-#[derive(GaussDynamics)]
-#[gauss(
-    coordinates(x, y, a),
-    body(bar, position = [x, 0, y], rotation = rotation_y(a), mass = m, inertia = j),
-    contact(foot, gap = y - l * sin(a), slip = rate(x + l * cos(a)), friction = mu, restitution = e),
-    contact(head, gap = y + l * sin(a), slip = rate(x - l * cos(a)), friction = mu, restitution = e),
-)]
-struct Rod {
-    m: f64,
-    j: f64,
-    l: f64,
-    mu: f64,
-    e: f64,
-    #[gauss(gravity)]
-    g: f64,
-}
 
 /// Two balls in a plane above a floor, which meet each other too.
 #[derive(GaussDynamics)]

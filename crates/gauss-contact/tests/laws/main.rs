@@ -11,6 +11,7 @@ mod impacts;
 mod marks;
 mod passing;
 mod pushes;
+mod rod;
 mod spatial;
 mod steps;
 mod tossed;

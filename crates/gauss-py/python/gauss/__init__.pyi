@@ -68,7 +68,9 @@ class Model:
         """The arrays of its tables, by the names of their constants."""
     @property
     def parameters(self) -> dict[str, tuple[int, str | None, str]]: ...
-    def casadi(self, path: str | PathLike[str], methods: str | Iterable[str] = ()) -> None:
+    def casadi(
+        self, path: str | PathLike[str], methods: str | Iterable[str] = (), *, without_contacts: bool = False
+    ) -> None:
         """Writes methods, or all, as C with the interface of CasADi's `external`, with sparse Jacobians and adjoints."""
     def __call__(self, **parameters: ArrayLike | Mapping[str, ArrayLike]) -> Kernel: ...
 

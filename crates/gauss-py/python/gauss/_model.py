@@ -106,17 +106,30 @@ class Model:
     def __call__(self, **parameters):
         return self._class(**parameters)
 
-    def casadi(self, path, methods=()):
+    def casadi(self, path, methods=(), *, without_contacts=False):
         """Writes methods, or all, as C with the interface of CasADi's `external`: functions `arm_acceleration`, of
         the name of the model and the method, which take the parameters first, with sparse Jacobians and adjoints.
 
         `cc -O2 -shared -fPIC arm.c -o arm.so -lm` compiles it, `casadi.external("arm_acceleration", "./arm.so")` takes
-        one. Raises ValueError with the names of methods that are not there, and OSError where nothing can be written.
+        one. Forces of contacts are in none of them: in a scene with contacts that is to be said, `without_contacts`.
+        Raises ValueError with the names of methods that are not there, ContactError, and OSError where nothing can be
+        written.
         """
         methods = [methods] if isinstance(methods, str) else list(methods)
         source = self._native_model.casadi(methods)
+        if self._native_model.contacts and not without_contacts:
+            moved = [name for name in methods or self.methods if self._leaves_contacts_out(name)]
+            if moved:
+                raise ContactError(
+                    f"{', '.join(moved)} would have no forces of contacts, and the scene has "
+                    f"{', '.join(self._native_model.contacts)}; say `without_contacts=True` for all gaps open"
+                )
         with open(path, "w", encoding="utf-8") as file:
             file.write(source)
+
+    def _leaves_contacts_out(self, method):
+        """Whether inputs act in a method, as forces of contacts would."""
+        return method not in OF_CONTACTS and "input" in Plan(method, self._native_model.signature(method)).sizes
 
     def _repr_latex_(self):
         return f"$$\n{self.latex}\n$$"
