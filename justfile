@@ -62,6 +62,12 @@ neighbours:
     cargo test --manifest-path examples/bevy/Cargo.toml --target-dir target/neighbours
     cargo test --manifest-path crates/gauss-rerun/Cargo.toml --target-dir target/neighbours
 
+# Wheels of the Python package for Linux, cross-compiled: `pip install maturin ziglang` and, once,
+# `rustup target add aarch64-unknown-linux-gnu`.
+wheels:
+    for target in x86_64 aarch64; do maturin build --release --locked --zig --target $target-unknown-linux-gnu \
+        --manylinux 2014 --manifest-path crates/gauss-py/Cargo.toml --out target/wheels || exit 1; done
+
 # The front page, with kernels that run in it, in `target/gauss`: `rustup target add wasm32-unknown-unknown` once.
 page:
     cargo run -p gauss-web
