@@ -11,6 +11,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use gauss_benches::robots::{Anymal, Fingers};
+use gauss_codegen::targets::c::Precision;
 use gauss_codegen::{Derivation, targets};
 use gauss_jit::{Cranelift, Effort, Interpreter, Model};
 use gauss_runtime::prelude::*;
@@ -34,7 +35,7 @@ fn turn(call: &mut dyn FnMut()) -> f64 {
 /// A program of C that prints nanoseconds a call of the accelerations, turn by turn, and how long gcc took.
 fn c(derivation: &Derivation, lists: &[Vec<f64>], constants: &[f64]) -> Option<(PathBuf, f64)> {
     let all: Vec<&[f64]> = [constants].into_iter().chain(lists.iter().map(Vec::as_slice)).collect();
-    let mut source = targets::c::source(derivation.functions());
+    let mut source = targets::c::source(derivation.functions(), Precision::Double).ok()?;
     source += "#include <stdio.h>\n#include <time.h>\n#include <stdlib.h>\nint main(int n, char **v) {\n";
     let mut names = Vec::new();
     for (k, list) in all.iter().enumerate().filter(|(_, list)| !list.is_empty()) {

@@ -1,5 +1,5 @@
-//! Programs as source text, in Rust and in C99, for CasADi too. A target is a module that reads [`Program`]s and writes
-//! code.
+//! Programs as source text, in Rust, C99 and C++17, for CasADi too. A target is a module that reads [`Program`]s and
+//! writes code.
 
 use std::fmt::Write;
 
@@ -7,7 +7,10 @@ use crate::program::{Argument, ArgumentKind, Program, Results};
 
 pub mod c;
 pub mod casadi;
+pub mod cpp;
 pub mod rust;
+
+mod arrays;
 
 /// Arguments without components are left out.
 fn is_handed_over(argument: &Argument) -> bool {

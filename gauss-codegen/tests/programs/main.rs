@@ -4,6 +4,7 @@
 mod c;
 #[path = "../common/mod.rs"]
 mod common;
+mod cpp;
 mod derivatives;
 mod loops;
 mod poles;

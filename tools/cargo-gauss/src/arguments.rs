@@ -39,9 +39,12 @@ pub struct Show {
     /// page.
     #[arg(long, value_delimiter = ',')]
     pub charts: Vec<String>,
-    /// With `program`, `c`, `casadi` and `functions`: these methods alone, with commas.
+    /// With `program`, `c`, `header`, `cpp`, `casadi` and `functions`: these methods alone, with commas.
     #[arg(long = "method", value_delimiter = ',')]
     pub methods: Vec<String>,
+    /// With `c` and `header`: numbers are of single precision.
+    #[arg(long)]
+    pub single: bool,
     /// Writes to this file in place of the terminal.
     #[arg(long, short)]
     pub output: Option<PathBuf>,
@@ -59,12 +62,23 @@ pub enum Form {
     Program,
     /// A source file in C99.
     C,
-    /// The same with derivatives, for `external` of CasADi.
+    /// Its header: declarations, sizes of arrays, places of their numbers by name; for C++ as well.
+    Header,
+    /// A header of templates in C++17: arrays and numbers of any type.
+    Cpp,
+    /// C99 with derivatives, for `external` of CasADi.
     Casadi,
     /// What the derive writes.
     Rust,
     /// Functions of `f64` in Rust that need nothing else.
     Functions,
+}
+
+impl Form {
+    /// Whether it is made of methods, of which some may be chosen.
+    pub fn has_methods(self) -> bool {
+        matches!(self, Self::Program | Self::C | Self::Header | Self::Cpp | Self::Casadi | Self::Functions)
+    }
 }
 
 /// Where the package goes, or the FMU.

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use gauss_codegen::program::Program;
+use gauss_codegen::targets::c::Precision;
 use gauss_codegen::{Derivation, Notation, targets};
 use proc_macro2::TokenStream;
 use syn::{DeriveInput, Error};
@@ -18,9 +19,11 @@ use crate::{page, robots, structs};
 /// # Errors
 /// What is wrong with the file, the names or the structs, each with its place.
 pub fn show(wanted: &Show) -> Result<(), String> {
-    let of_methods = matches!(wanted.form, Form::Program | Form::C | Form::Casadi | Form::Functions);
-    if !wanted.methods.is_empty() && !of_methods {
-        return Err("`--method` goes with `--as program`, `c`, `casadi` or `functions`".to_owned());
+    if !wanted.methods.is_empty() && !wanted.form.has_methods() {
+        return Err("`--method` goes with `--as program`, `c`, `header`, `cpp`, `casadi` or `functions`".to_owned());
+    }
+    if wanted.single && !matches!(wanted.form, Form::C | Form::Header) {
+        return Err("`--single` goes with `--as c` and `header`; functions of `--as cpp` take any type".to_owned());
     }
     let file = wanted.file.display().to_string();
     let source = fs::read_to_string(&wanted.file).map_err(|error| format!("{file}: {error}"))?;
@@ -35,7 +38,7 @@ pub fn show(wanted: &Show) -> Result<(), String> {
     let all = derive(wanted, &items)?;
     let text = match wanted.form {
         Form::Html => page::html(&file, &all),
-        form => all.iter().map(|shown| text(shown, form, &wanted.methods)).collect::<Result<Vec<_>, _>>()?.join("\n"),
+        _ => all.iter().map(|shown| text(shown, wanted)).collect::<Result<Vec<_>, _>>()?.join("\n"),
     };
     match &wanted.output {
         Some(path) => gauss_files::write(path, text).map_err(|error| format!("{}: {error}", path.display())),
@@ -72,11 +75,12 @@ pub fn located(file: &Path, mistakes: &syn::Error) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-fn text(shown: &Shown, form: Form, methods: &[String]) -> Result<String, String> {
-    let derivation = &shown.derivation;
+fn text(shown: &Shown, wanted: &Show) -> Result<String, String> {
+    let (derivation, form, methods) = (&shown.derivation, wanted.form, &wanted.methods);
+    let precision = if wanted.single { Precision::Single } else { Precision::Double };
     let functions = derivation.functions().only(methods).map_err(|error| error.to_string())?;
     let touching: Vec<&str> = derivation.description().contacts.iter().map(|contact| contact.name.as_str()).collect();
-    if matches!(form, Form::C | Form::Casadi | Form::Functions) && !touching.is_empty() {
+    if form.has_methods() && form != Form::Program && !touching.is_empty() {
         eprintln!("{}: forces of contacts ({}) are in none of these functions", shown.title, touching.join(", "));
     }
     match form {
@@ -84,7 +88,9 @@ fn text(shown: &Shown, form: Form, methods: &[String]) -> Result<String, String>
         Form::Latex => Ok(derivation.equations(Notation::Latex).to_owned()),
         Form::Program if methods.is_empty() => Ok(printed(functions.programs())),
         Form::Program => Ok(printed(functions.methods.iter())),
-        Form::C => Ok(targets::c::source(&functions)),
+        Form::C => targets::c::source(&functions, precision).map_err(|error| error.to_string()),
+        Form::Header => Ok(targets::c::header(&functions, precision)),
+        Form::Cpp => Ok(targets::cpp::source(&functions)),
         Form::Casadi => targets::casadi::source(&functions).map_err(|mistake| mistake.to_string()),
         // A derivation of a struct has it.
         Form::Rust => pretty(derivation.rust().cloned().unwrap_or_default()),

@@ -1,12 +1,14 @@
 //! The command, as Cargo calls it.
 
+mod languages;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// What `cargo gauss new` writes compiles.
 #[allow(dead_code)]
-#[path = "../src/template.rs.txt"]
+#[path = "../../src/template.rs.txt"]
 mod template;
 
 const BODIES: &str = r#"
@@ -64,6 +66,7 @@ fn every_form_is_printed() {
     let of = |form: &str| printed(&["show", file.to_str().expect("UTF-8"), "Swing", "--as", form]);
     assert!(of("latex").starts_with("\\begin{align*}"));
     assert!(of("c").contains("#include <math.h>"));
+    assert!(of("header").contains("SWING_Q_COUNT = 1") && of("cpp").contains("namespace swing {"));
     assert!(of("rust").contains("struct SwingKernel"));
     assert!(of("functions").contains("pub fn acceleration"));
     let one = printed(&["show", file.to_str().expect("UTF-8"), "Swing", "--as", "program", "--method", "acceleration"]);
@@ -75,6 +78,12 @@ fn every_form_is_printed() {
     let call = |arguments: &[String; 7]| refused(&arguments.each_ref().map(String::as_str));
     assert!(call(&of_method("latex", "acceleration")).contains("`--method` goes with `--as program`"));
     assert!(call(&of_method("c", "nonsense,acceleration")).starts_with("Swing has no method `nonsense`; it has "));
+    let single =
+        |form: &str| ["show", file.to_str().expect("UTF-8"), "Swing", "--as", form, "--single"].map(str::to_owned);
+    let printed_single = |form: &str| printed(&single(form).each_ref().map(String::as_str));
+    assert!(printed_single("c").contains("0.5f *") && printed_single("header").contains("const float k["));
+    let error = refused(&single("cpp").each_ref().map(String::as_str));
+    assert!(error.contains("`--single` goes with `--as c` and `header`"), "{error}");
 }
 
 #[test]
@@ -135,7 +144,7 @@ fn a_package_is_made_once() {
     assert!(manifest.contains("name = \"my_top\"") && manifest.contains("gauss-runtime\" }"), "{manifest}");
     assert_eq!(
         fs::read_to_string(folder.join("src/main.rs")).expect("a program"),
-        include_str!("../src/template.rs.txt")
+        include_str!("../../src/template.rs.txt")
     );
     assert!(refused(&arguments).contains("exists"));
     let words =
