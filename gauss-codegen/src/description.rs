@@ -66,6 +66,8 @@ pub struct ContactDescription {
     pub rolls_on: Option<usize>,
     /// Names of the bodies that touch, where they are known: of the one that has the point, and of the other.
     pub bodies: [Option<String>; 2],
+    /// Whether its gap depends on the time, not through the motion alone.
+    pub moves: bool,
     /// Number of axes of its frame, the normal among them: 0 where its place is not known.
     pub axes: usize,
 }

@@ -225,6 +225,8 @@ pub struct Contact {
     /// be those of frames, or of links of a robot's file; `None` of what is fixed, of the only body of a chart, and of
     /// gaps and slips that are written as expressions.
     pub bodies: [Option<&'static str>; 2],
+    /// Whether its gap depends on the time, not through the motion alone: nothing then bounds how fast it can change.
+    pub moves: bool,
 }
 
 /// Point, normal and tangents of a contact. Components are along the observer's axes, points are from the observer's
@@ -281,19 +283,35 @@ impl Contact {
     /// A contact with a gap.
     #[must_use]
     pub const fn new(name: &'static str, normal: usize, tangents: usize) -> Self {
-        Self { name, normal, tangents, drills: false, kind: ContactKind::Gap, bodies: [None; 2] }
+        Self { name, normal, tangents, drills: false, kind: ContactKind::Gap, bodies: [None; 2], moves: false }
     }
 
     /// Dry friction along one slip or two, of which the first row is given.
     #[must_use]
     pub const fn dry_friction(name: &'static str, first: usize, tangents: usize) -> Self {
-        Self { name, normal: first, tangents, drills: false, kind: ContactKind::DryFriction, bodies: [None; 2] }
+        Self {
+            name,
+            normal: first,
+            tangents,
+            drills: false,
+            kind: ContactKind::DryFriction,
+            bodies: [None; 2],
+            moves: false,
+        }
     }
 
     /// Rolling resistance about one tangent or two of the contact number `on`, of which the first row is given.
     #[must_use]
     pub const fn rolling(name: &'static str, first: usize, tangents: usize, on: usize) -> Self {
-        Self { name, normal: first, tangents, drills: false, kind: ContactKind::Rolling { on }, bodies: [None; 2] }
+        Self {
+            name,
+            normal: first,
+            tangents,
+            drills: false,
+            kind: ContactKind::Rolling { on },
+            bodies: [None; 2],
+            moves: false,
+        }
     }
 
     /// Adds a row of friction of drilling after its tangents.
@@ -306,6 +324,12 @@ impl Contact {
     #[must_use]
     pub const fn between(self, bodies: [Option<&'static str>; 2]) -> Self {
         Self { bodies, ..self }
+    }
+
+    /// A gap that depends on the time.
+    #[must_use]
+    pub const fn moving(self) -> Self {
+        Self { moves: true, ..self }
     }
 
     /// Whether it has a gap and a normal.

@@ -23,7 +23,7 @@ use gauss_runtime::system::GaussSystem;
 use crate::decide::{Instant, Scales};
 use crate::dense::value;
 use crate::error::{ContactError, ContactErrorKind};
-use crate::history::Passage;
+use crate::history::{Passage, SampledGap};
 use crate::impact::Impact;
 use crate::jumps::{self, Record};
 use crate::mode::{InMode, Least, Mode, slip, tangents};
@@ -294,6 +294,8 @@ where
             let Some(last) = self.made.last() else { return Ok(()) };
             let goes_on = value(last.t) < value(self.end) && value(last.t) == value(until);
             instant = Instant { t: last.t, q: last.q, z: last.z, fired, first: false, jumped: false, ..instant };
+            // An event that may jump has ended the segment, also where it leaves the state as it is.
+            let stopped_there = !here.is_empty();
             let jumps = self.jump(&mut instant, here)?;
             if self.made.stopped_by.is_some() && !jumps {
                 return Ok(());
@@ -301,7 +303,7 @@ where
             instant.fired = instant.fired.or_else(|| if instant.jumped { None } else { self.touches(&instant) });
             match instant.fired {
                 Some(fired) => self.count(value(last.t), fired)?,
-                None if goes_on || jumps => {}
+                None if goes_on || stopped_there => {}
                 None => return Ok(()),
             }
         }
@@ -421,7 +423,11 @@ where
         self.used += trajectory.summary().steps + trajectory.summary().rejected;
         let passed = trajectory.events().iter().filter(|event| event.number < users);
         self.made.passages.extend(passed.clone().map(|event| Passage::of(event.number, &event.sample)));
-        self.made.keep_sampled(&sampled.borrow(), value(end));
+        let moving = self.kernel.contacts().iter().enumerate().filter(|(_, contact)| contact.moves);
+        let looked_at = moving.map(|(contact, _)| SampledGap { contact, start: value(from.t), end: value(end) });
+        let bounded = |gap: &SampledGap| !self.kernel.contacts()[gap.contact].moves;
+        let all: Vec<SampledGap> = sampled.borrow().iter().copied().filter(bounded).chain(looked_at).collect();
+        self.made.keep_sampled(&all, value(end));
         let stopped = trajectory.stopped_by();
         let at_end = passed.filter(|event| stopped.is_some() && value(event.sample.t) == value(end));
         let here: Vec<usize> = at_end.map(|event| event.number).collect();

@@ -48,7 +48,8 @@ pub(crate) fn contacts(description: &Description) -> &'static [Contact] {
             None => Contact::dry_friction(name, row, tangents),
         };
         let body = |k: usize| own.bodies[k].as_deref().map(kept);
-        (if own.drills { contact.with_drilling() } else { contact }).between([body(0), body(1)])
+        let contact = if own.drills { contact.with_drilling() } else { contact };
+        (if own.moves { contact.moving() } else { contact }).between([body(0), body(1)])
     };
     static LISTS: Pool<[Contact]> = Pool(Mutex::new(None));
     let list: Vec<Contact> = description.contacts.iter().map(contact).collect();

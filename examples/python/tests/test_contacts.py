@@ -348,6 +348,9 @@ def test_jumps_go_with_contacts(puck):
         assert len(run.jumps[0].t) == 1 and abs(run.jumps[0].q[0, 0] - 1.0) < 1e-12
         same = np.flatnonzero(np.diff(run.t) == 0.0)
         assert any(abs(run.z[n, 0] + run.z[n + 1, 0]) < 1e-12 for n in same)
+        # None leaves the state, and the run goes on.
+        seen = puck.simulate(*start, (0, 2), input=[0.0], jumps=(("x", 0.7, "rising"), lambda t, q, z: None), **words)
+        assert abs(seen.q[-1, 0] - way) < near and seen.t[-1] == 2.0 and len(seen.jumps[0].t) == 1
     with pytest.raises(scenes.IntegrationError, match="leaves the gap"):
         puck.simulate(*start, (0, 2), input=[0.0], jumps=(("x", 1.0, "rising"), lambda t, q, z: ([q[0], -1.0], z)))
 

@@ -156,6 +156,7 @@ impl<'g> Subject<'_, 'g> {
             drills: contact.drills,
             rolls_on: contact.rolls_on,
             bodies: contact.bodies.clone(),
+            moves: contact.gap.is_some_and(|gap| !gap.partial(self.system.scene.time).is_zero()),
             axes: contact.frame.as_ref().map_or(0, |frame| frame.axes.len()),
         });
         contacts.collect()

@@ -213,3 +213,27 @@ fn a_stop_is_met_however_many_turns_a_step_makes() {
         }
     }
 }
+
+/// A wall that comes for less than a run is looked at is found as far as looks go, and the run tells that there are no
+/// more than these.
+#[test]
+fn gaps_that_depend_on_the_time_are_told_to_be_sampled() {
+    for w in [0.01, 0.05, 0.5] {
+        let kernel = Comes { m: 1.0, a: 1.2, t0: 5.3, w }.kernel().expect("a scene");
+        let run = ContactRun::new(&kernel).adaptive(1e-9, 1e-9).run([1.0].into(), [0.0].into(), 0.0..10.0);
+        let run = run.expect("runs");
+        let wanted = 5.3 - w * 1.2_f64.ln().sqrt();
+        let found = run.events().first().map(|event| event.time);
+        assert!(found.is_some_and(|found| (found - wanted).abs() < 1e-11), "{w}: {found:?} {wanted}");
+        let sampled: Vec<(f64, f64)> = run.sampled_gaps().iter().map(|gap| (gap.start, gap.end)).collect();
+        assert_eq!(sampled, [(0.0, 10.0)], "{w}");
+    }
+    // What passes between two looks may be passed, and that is told.
+    let kernel = Comes { m: 1.0, a: 1.2, t0: 5.3, w: 1e-5 }.kernel().expect("a scene");
+    let run = ContactRun::new(&kernel).adaptive(1e-9, 1e-9).run([1.0].into(), [0.0].into(), 0.0..10.0);
+    assert_eq!(run.expect("runs").sampled_gaps().len(), 1);
+    // The motion alone is bounded.
+    let kernel = Post { m: 1.0, rho: 0.1 }.kernel().expect("a scene");
+    let run = ContactRun::new(&kernel).adaptive(1e-9, 1e-9).run([2.0, 0.0].into(), [-1.0, 0.0].into(), 0.0..10.0);
+    assert!(run.expect("runs").sampled_gaps().is_empty());
+}

@@ -124,9 +124,10 @@ fn listed(derived: &Derived<'_, '_>) -> Vec<TokenStream> {
         let (name, first, tangents) = (&contact.name, next, contact.tangents);
         next += contact.rows();
         let drilling = if contact.drills { quote!(.with_drilling()) } else { quote!() };
+        let moving = if contact.moves { quote!(.moving()) } else { quote!() };
         let between = between(&contact.bodies);
         match contact.rolls_on {
-            _ if contact.has_gap => quote!(#private::Contact::new(#name, #first, #tangents)#drilling #between),
+            _ if contact.has_gap => quote!(#private::Contact::new(#name, #first, #tangents)#drilling #moving #between),
             Some(on) => quote!(#private::Contact::rolling(#name, #first, #tangents, #on)#between),
             None => quote!(#private::Contact::dry_friction(#name, #first, #tangents)),
         }
