@@ -3,16 +3,13 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use gauss_runtime::integrate::drive::adaptive::{Adaptive, ROUNDED};
-use gauss_runtime::integrate::drive::cause::{StopReason, change};
-use gauss_runtime::integrate::drive::control::{
-    StepStatistics, check_tolerances, longest, smallest, to_a_number, unresolved,
-};
+use gauss_runtime::integrate::drive::adaptive::Adaptive;
+use gauss_runtime::integrate::drive::cause::StopReason;
+use gauss_runtime::integrate::drive::choice::StepChoice;
+use gauss_runtime::integrate::drive::control::check_tolerances;
 use gauss_runtime::integrate::drive::logarithms::{exponential, logarithm};
-use gauss_runtime::integrate::drive::looks::Looks;
-use gauss_runtime::integrate::drive::projection::{AVOIDED, accept, check_move, clear_part, is_hopeless};
+use gauss_runtime::integrate::drive::projection::{accept, check_move};
 use gauss_runtime::integrate::drive::search::StepEnds;
-use gauss_runtime::integrate::drive::step_length::StepLength;
 use gauss_runtime::integrate::drive::tolerance::{Floor, Tolerance, Trial};
 use gauss_runtime::integrate::problem::called_equations::CalledEquations;
 use gauss_runtime::integrate::problem::equations::Problem;
@@ -25,28 +22,25 @@ use gauss_runtime::simd::Packed;
 use super::system::BatchSystem;
 use super::{Group, LaneControl, Sealed, Verdict, chosen_rates, chosen_state, largest, number, numbers_of, ones_in};
 
-/// Memory of one lane: the fields of the same names of a run of its own.
+/// Memory of one lane.
 #[derive(Clone, Copy)]
 struct AdaptiveLane {
-    length: f64,
-    lengths: StepLength,
-    looks: Looks,
-    looked: f64,
-    rejected: u32,
+    choice: StepChoice,
     /// Whether the floor is known.
     floored: bool,
-    /// Present trial: the length that is tried, whether it is the last, its error.
-    used: f64,
-    last: bool,
-    error: f64,
-    /// The length to try in its place, for what acts within it or for where it ends.
-    shorter: Option<f64>,
+    /// Whether the lane makes the present trial, and whether it is to be tried again for where it leads.
+    tries: bool,
+    leads_away: bool,
 }
 
 impl AdaptiveLane {
-    /// Whether the error of the trial is too large.
-    fn rejects(&self) -> bool {
-        self.error.is_nan() || self.error > self.lengths.limit()
+    /// Whether it tries a step, whose error is small enough.
+    fn accepts(&self) -> bool {
+        self.tries && !self.choice.rejects()
+    }
+
+    fn takes(&self) -> bool {
+        self.accepts() && !self.leads_away
     }
 }
 
@@ -54,7 +48,6 @@ impl AdaptiveLane {
 pub struct AdaptiveMemory<S: BatchSystem> {
     lanes: Vec<AdaptiveLane>,
     floor: Option<Floor<S>>,
-    longest: f64,
 }
 
 impl<S: BatchSystem> AdaptiveMemory<S> {
@@ -64,25 +57,20 @@ impl<S: BatchSystem> AdaptiveMemory<S> {
         let (mut h, mut lengths) = (S::Scalar::zero(), S::Scalar::one());
         let rest = group.end - group.state.t;
         for (n, lane) in self.lanes.iter_mut().enumerate() {
-            lane.used = 0.0;
+            (lane.tries, lane.leads_away) = (who[n], false);
             if !who[n] {
                 continue;
             }
-            let left = number(rest, n).abs();
-            // Stretch by 1 % rather than leave a sliver.
-            lane.last = lane.length >= left * 0.99;
-            let of = <S::Scalar as Packed>::Single::from_f64;
-            let t = group.state.t.extract(n);
-            let length = if group.span < 0.0 { -lane.length } else { lane.length };
-            let signed = if lane.last { rest.extract(n) } else { to_a_number(t, length) };
-            if t + signed == t || !lane.last && lane.length <= smallest::<S::Scalar>(t.lane(0), group.span) {
-                let vanishes = unresolved::<S::Scalar>(lane.length, t.lane(0), group.span);
-                group.verdicts[n] = Verdict::Stopped(StopReason::AnyStep(vanishes));
-                continue;
+            match lane.choice.propose(group.state.t.extract(n), rest.extract(n)) {
+                Ok(signed) => {
+                    h.replace(n, &signed);
+                    lengths.replace(n, &Real::from_f64(lane.choice.used()));
+                }
+                Err(kind) => {
+                    lane.tries = false;
+                    group.verdicts[n] = Verdict::Stopped(StopReason::AnyStep(kind));
+                }
             }
-            lane.used = if lane.last { left } else { lane.length };
-            h.replace(n, &signed);
-            lengths.replace(n, &of(lane.used));
         }
         (h, lengths)
     }
@@ -106,13 +94,10 @@ impl<S: BatchSystem> AdaptiveMemory<S> {
         after: (&State<S>, &Rates<S>),
     ) -> bool {
         let mut too_long = false;
-        for (n, lane) in self.lanes.iter_mut().enumerate().filter(|(_, lane)| lane.used > 0.0 && !lane.rejects()) {
-            if lane.shorter.is_none() && lane.looks.want(number(group.state.t, n), lane.used, lane.error) {
-                let made =
-                    StepEnds { lane: numbers_of::<S::Scalar>(n).start, before: (&group.state, &group.rates), after };
-                lane.shorter = lane.looks.unseen(problem, &made, tolerance);
-                too_long |= lane.shorter.is_some();
-            }
+        for (n, lane) in self.lanes.iter_mut().enumerate().filter(|(_, lane)| lane.takes()) {
+            let made = StepEnds { lane: numbers_of::<S::Scalar>(n).start, before: (&group.state, &group.rates), after };
+            lane.leads_away = lane.choice.leads_over_input(problem, &made, tolerance);
+            too_long |= lane.leads_away;
         }
         too_long
     }
@@ -120,12 +105,9 @@ impl<S: BatchSystem> AdaptiveMemory<S> {
     /// Looks at where the step of each lane ends; whether it is to end elsewhere in any.
     fn look_at_ends<P: Problem<System = S>>(&mut self, problem: &P, trial: &Trial<'_, S>, moved: &Rates<S>) -> bool {
         let mut too_long = false;
-        for (n, lane) in self.lanes.iter_mut().enumerate().filter(|(_, lane)| lane.used > 0.0 && !lane.rejects()) {
-            if !lane.last && lane.rejected < AVOIDED {
-                let part = clear_part(problem, trial, moved, numbers_of::<S::Scalar>(n).start);
-                lane.shorter = part.map(|part| lane.used * lane.lengths.stop_before(part));
-                too_long |= part.is_some();
-            }
+        for (n, lane) in self.lanes.iter_mut().enumerate().filter(|(_, lane)| lane.takes()) {
+            lane.leads_away = lane.choice.ends_beside(problem, trial, moved, numbers_of::<S::Scalar>(n).start);
+            too_long |= lane.leads_away;
         }
         too_long
     }
@@ -133,8 +115,7 @@ impl<S: BatchSystem> AdaptiveMemory<S> {
     /// Takes lanes whose step is not taken back to its start; the others are 1.
     #[cold]
     fn hold_back(&self, group: &Group<S>, reached: &mut State<S>, next: &mut Rates<S>) -> S::Scalar {
-        let takes = |lane: &AdaptiveLane| lane.used > 0.0 && !lane.rejects() && lane.shorter.is_none();
-        let ones = ones_in(|n| takes(&self.lanes[n]));
+        let ones = ones_in(|n| self.lanes[n].takes());
         *reached = chosen_state(ones, reached, &group.state);
         *next = chosen_rates(ones, next, &group.rates);
         ones
@@ -154,48 +135,30 @@ impl<S: BatchSystem> AdaptiveMemory<S> {
     /// The lengths to try next, and what is told of the step, in every lane that tried one.
     #[inline(always)]
     fn judge<P: Problem<System = S>>(&mut self, problem: &P, group: &mut Group<S>, floors: Option<S::Scalar>) {
-        let (mut look, mut forget, most) = (false, false, self.longest);
+        let (mut look, mut forget) = (false, false);
         for (part, lanes) in self.lanes.chunks_mut(TOGETHER).enumerate() {
             let excesses = floors.map(|floors| excesses(floors, part * TOGETHER, lanes));
             let (logarithms, growths) = growths(lanes, &excesses);
-            for (n, lane) in lanes.iter_mut().enumerate().filter(|(_, lane)| lane.used > 0.0) {
+            for (n, lane) in lanes.iter_mut().enumerate().filter(|(_, lane)| lane.tries) {
                 let verdict = &mut group.verdicts[part * TOGETHER + n];
-                if lane.rejects() {
-                    lane.length = lane.used * lane.lengths.reject(lane.error);
-                    lane.rejected += 1;
-                    *verdict = Verdict::Rejected;
-                    continue;
+                *verdict = Verdict::Rejected;
+                if lane.takes() {
+                    let excess = excesses.map_or(0.0, |excesses| excesses[n]);
+                    let (taken, again) = lane.choice.take(excess, logarithms[n], growths[n]);
+                    forget |= lane.floored;
+                    look |= again;
+                    lane.floored = again;
+                    *verdict = Verdict::Taken(taken, lane.choice.is_last());
+                } else if !lane.leads_away {
+                    lane.choice.reject();
                 }
-                if let Some(shorter) = lane.shorter.take() {
-                    lane.length = shorter;
-                    lane.rejected += 1;
-                    *verdict = Verdict::Rejected;
-                    continue;
-                }
-                lane.looks.take(lane.error);
-                let excess = excesses.map_or(0.0, |excesses| excesses[n]);
-                lane.length = (lane.used * lane.lengths.grow(logarithms[n], growths[n])).min(most);
-                // Where rounding is in the way it is asked for again, elsewhere when steps have become short.
-                let short = lane.length < 0.5 * lane.looked;
-                let again = excess > 0.0 || short;
-                forget |= lane.floored;
-                look |= again;
-                lane.floored = again;
-                if again {
-                    lane.looked = lane.length;
-                }
-                lane.looked = lane.looked.max(lane.length);
-                let rejected = core::mem::take(&mut lane.rejected);
-                *verdict = Verdict::Taken(StepStatistics::new(rejected, excess), lane.last);
-                // For those that are asked for below.
-                lane.used = if again { f64::INFINITY } else { lane.used };
             }
         }
         if forget {
             self.forget();
         }
         if look {
-            self.look(problem, group, |lane| lane.used == f64::INFINITY);
+            self.look(problem, group, |lane| lane.tries && lane.floored);
         }
     }
 }
@@ -218,10 +181,7 @@ fn excesses<T: Real + Packed<Single: Real>>(floors: T, first: usize, lanes: &[Ad
 fn growths(lanes: &[AdaptiveLane], excesses: &Option<[f64; TOGETHER]>) -> ([f64; TOGETHER], [f64; TOGETHER]) {
     let mut values = [1.0; TOGETHER];
     for (n, (value, lane)) in values.iter_mut().zip(lanes).enumerate() {
-        let excess = excesses.map_or(0.0, |excesses| excesses[n]);
-        // Well below what rounding does there is nothing to be learnt of the step.
-        let told = if excess > 0.0 && lane.error < 0.5 { lane.error.min(ROUNDED) } else { lane.error };
-        *value = StepLength::told(told);
+        *value = lane.choice.told(excesses.map_or(0.0, |excesses| excesses[n]));
     }
     // Not `map` of arrays, which compilers leave a call.
     let mut logarithms = [0.0; TOGETHER];
@@ -230,7 +190,7 @@ fn growths(lanes: &[AdaptiveLane], excesses: &Option<[f64; TOGETHER]>) -> ([f64;
     }
     let mut growths = [0.0; TOGETHER];
     for (n, lane) in lanes.iter().enumerate() {
-        growths[n] = lane.lengths.exponent(logarithms[n]);
+        growths[n] = lane.choice.exponent(logarithms[n]);
     }
     for growth in &mut growths {
         *growth = exponential(*growth);
@@ -243,49 +203,28 @@ impl<M> Sealed for Adaptive<M> {}
 impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
     type Memory = AdaptiveMemory<S>;
 
-    fn memory(&self, span: f64, limit: u64) -> Result<AdaptiveMemory<S>, IntegrationErrorKind> {
+    fn memory(&self, span: f64, _: u64) -> Result<AdaptiveMemory<S>, IntegrationErrorKind> {
         check_tolerances(self.tolerance.relative, self.tolerance.absolute)?;
-        Looks::check(self.input_changes)?;
-        let longest = if span == 0.0 { 0.0 } else { longest(self.largest_step, span, limit)? };
-        let lane = AdaptiveLane {
-            length: 0.0,
-            lengths: StepLength::new(self.method.estimate_order(), S::SMOOTHNESS),
-            looks: Looks::new(self.input_changes, 0.0, span),
-            looked: 0.0,
-            rejected: 0,
-            floored: false,
-            used: 0.0,
-            last: false,
-            error: 0.0,
-            shorter: None,
-        };
-        Ok(AdaptiveMemory { lanes: vec![lane; S::Scalar::WIDTH], floor: None, longest })
+        let choice = self.choice::<S>(S::SMOOTHNESS, 0.0, span);
+        let lane = AdaptiveLane { choice, floored: false, tries: false, leads_away: false };
+        Ok(AdaptiveMemory { lanes: vec![lane; S::Scalar::WIDTH], floor: None })
     }
 
     fn begin<P: Problem<System = S>>(
         &self,
         problem: &P,
         group: &Group<S>,
-        (lane, _): (usize, u64),
+        (lane, limit): (usize, u64),
         memory: &mut AdaptiveMemory<S>,
     ) -> Result<(), IntegrationErrorKind> {
         let lanes = (ones_in(|other| other == lane), numbers_of::<S::Scalar>(lane));
-        let start = (&group.state, &group.rates);
-        let estimate = || self.first_length(problem, start, &lanes, group.span.signum());
-        let first = self.first_step.unwrap_or_else(estimate);
-        if !(first.is_finite() && first > 0.0) {
-            return Err(IntegrationErrorKind::InvalidStep { step: first });
-        }
+        let (from, span) = (number(group.state.t, lane), number(group.end - group.state.t, lane));
         let this = &mut memory.lanes[lane];
-        this.lengths = StepLength::new(self.method.estimate_order(), problem.system().smoothness());
-        (this.length, this.looked, this.rejected) = (first.min(memory.longest), 0.0, 0);
-        let span = number(group.end - group.state.t, lane);
-        this.looks = Looks::new(self.input_changes, number(group.state.t, lane), span);
-        this.shorter = None;
+        this.choice = self.choice::<S>(problem.system().smoothness(), from, span);
         if core::mem::take(&mut this.floored) {
             memory.forget();
         }
-        Ok(())
+        self.begin_steps(problem, (&group.state, &group.rates), &lanes, limit, &mut memory.lanes[lane].choice)
     }
 
     #[inline(never)]
@@ -313,29 +252,27 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
             Some(floor) => tolerance.errors_above(floor, states, estimates),
         };
         let mut look = false;
-        for (n, lane) in memory.lanes.iter_mut().enumerate() {
-            lane.error = if lane.used > 0.0 { largest(errors, n) } else { 0.0 };
-            look |= lane.rejects() && !lane.floored;
+        for (n, lane) in memory.lanes.iter_mut().enumerate().filter(|(_, lane)| lane.tries) {
+            look |= lane.choice.judge(largest(errors, n)) && !lane.floored;
         }
         if look {
             // It may be rounding that is too much.
-            memory.look(problem, group, |lane| lane.rejects() && !lane.floored);
+            let asks = |lane: &AdaptiveLane| lane.tries && lane.choice.rejects() && !lane.floored;
+            memory.look(problem, group, asks);
             let above = |floor: &Floor<S>| tolerance.errors_above(floor, states, estimates);
             let errors = memory.floor.as_ref().map_or(errors, above);
-            for (n, lane) in memory.lanes.iter_mut().enumerate().filter(|(_, lane)| lane.rejects() && !lane.floored) {
-                (lane.error, lane.floored) = (largest(errors, n), true);
+            for (n, lane) in memory.lanes.iter_mut().enumerate().filter(|(_, lane)| asks(lane)) {
+                lane.choice.judge(largest(errors, n));
+                lane.floored = true;
             }
         }
 
         // Lanes that do not take the step stay where they are.
-        let takes = |n: usize| memory.lanes[n].used > 0.0 && !memory.lanes[n].rejects();
-        let all = (0..memory.lanes.len()).all(takes);
-        let ones = if all { S::Scalar::one() } else { ones_in(takes) };
+        let all = memory.lanes.iter().all(AdaptiveLane::accepts);
+        let ones = if all { S::Scalar::one() } else { ones_in(|n| memory.lanes[n].accepts()) };
         let mut reached = step.state;
-        for (n, lane) in memory.lanes.iter().enumerate() {
-            if lane.last {
-                reached.t.replace(n, &group.end.extract(n));
-            }
+        for (n, _) in memory.lanes.iter().enumerate().filter(|(_, lane)| lane.tries && lane.choice.is_last()) {
+            reached.t.replace(n, &group.end.extract(n));
         }
         if !all {
             reached = chosen_state(ones, &reached, &group.state);
@@ -366,21 +303,13 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
         kind: IntegrationErrorKind,
         memory: &mut AdaptiveMemory<S>,
     ) -> Verdict {
-        let lane = &mut memory.lanes[n];
-        lane.length = StepLength::part(&kind) * lane.length.min(group.left(n));
-        lane.rejected += 1;
-        lane.lengths.fail();
-        let moves = change(&group.state, &group.rates, &numbers_of::<S::Scalar>(n)) * lane.length;
-        let still = moves > 0.0 && moves < 0.5 * S::Scalar::EPSILON;
-        let t = group.state.t.extract(n);
-        let h = <S::Scalar as Packed>::Single::from_f64(if group.span < 0.0 { -lane.length } else { lane.length });
-        let vanishes = lane.length <= smallest::<S::Scalar>(t.lane(0), group.span) || t + h == t;
-        let hopeless = || is_hopeless(problem, &group.state, numbers_of::<S::Scalar>(n), (&kind, lane.rejected));
-        if still || vanishes || hopeless() { Verdict::Stopped(StopReason::AnyStep(kind)) } else { Verdict::Rejected }
+        let of = (numbers_of::<S::Scalar>(n), group.state.t.extract(n), group.left(n));
+        let again = memory.lanes[n].choice.halve(problem, (&group.state, &group.rates), of, kind);
+        again.map_or_else(|kind| Verdict::Stopped(StopReason::AnyStep(kind)), |()| Verdict::Rejected)
     }
 
     fn length(&self, lane: usize, memory: &AdaptiveMemory<S>) -> f64 {
-        memory.lanes[lane].length
+        memory.lanes[lane].choice.length()
     }
 
     fn passes_over_decay(&self) -> bool {

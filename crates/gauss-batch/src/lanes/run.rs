@@ -505,13 +505,13 @@ where
         running.pace = Pace::new(t, limit.saturating_sub(tries));
         let outcome = if lost {
             Err(IntegrationErrorKind::TooManySteps { limit })
+        } else if left == 0.0 {
+            return self.leave(lane, Ok(None), runs);
         } else {
             self.begin(lane, limit.saturating_sub(tries))
         };
-        match outcome {
-            Err(kind) => self.leave(lane, Err(kind), runs),
-            Ok(()) if left == 0.0 => self.leave(lane, Ok(None), runs),
-            Ok(()) => {}
+        if let Err(kind) = outcome {
+            self.leave(lane, Err(kind), runs);
         }
     }
 

@@ -4,15 +4,16 @@ use core::fmt;
 use core::ops::Range;
 
 use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::drive::cause::{StopPlace, StopReason, cause, change};
+use crate::integrate::drive::cause::{StopPlace, StopReason, cause};
+use crate::integrate::drive::choice::StepChoice;
 use crate::integrate::drive::control::{
-    Control, Progress, StepCallback, StepStatistics, check_tolerances, longest, prepare, smallest, to_a_number,
-    unresolved,
+    Control, Progress, StepCallback, StepStatistics, check_tolerances, longest, prepare,
 };
 use crate::integrate::drive::cubic::StepEnds;
+use crate::integrate::drive::logarithms::{exponential, logarithm};
 use crate::integrate::drive::looks::Looks;
 use crate::integrate::drive::pace::Pace;
-use crate::integrate::drive::projection::{AVOIDED, accept, check_move, clear_part, is_hopeless, onto_constraints};
+use crate::integrate::drive::projection::{accept, check_move, onto_constraints};
 use crate::integrate::drive::step_length::{StepLength, power};
 use crate::integrate::drive::tolerance::{Floor, Tolerance, Trial};
 use crate::integrate::lie_group::rkmk::Rkmk;
@@ -24,7 +25,7 @@ use crate::integrate::runge_kutta::tableau::{DormandPrince8, Tableau};
 use crate::integrate::step::iteration::worst;
 use crate::integrate::step::one_step::{EstimatingStep, Step};
 use crate::real::Real;
-use crate::system::GaussSystem;
+use crate::system::{GaussSystem, Smoothness};
 
 /// Steps that keep the estimated error of each within a tolerance: an embedded pair, or any other [`EstimatingStep`],
 /// with a PI controller (Gustafsson; Hairer, Nørsett & Wanner II.4).
@@ -110,27 +111,16 @@ impl<M> Adaptive<M> {
     }
 }
 
-/// The error, in tolerances, for which one that is but rounding is taken: steps then grow by a sixth.
-pub const ROUNDED: f64 = 1e-3;
-
 /// The choice of steps of a run, as it goes on.
-pub struct StepChoice<S: GaussSystem> {
-    span: f64,
-    longest: f64,
-    /// The length to try next.
-    length: f64,
-    lengths: StepLength,
-    looks: Looks,
+pub struct AdaptiveMemory<S: GaussSystem> {
+    choice: StepChoice,
     /// The rounding error of a step, once it has been measured.
     floor: Option<Floor<S>>,
-    /// The longest step since the rounding error was measured, or the step for which it was measured.
-    looked: f64,
-    rejected: u32,
     limit: u64,
     pace: Pace,
 }
 
-copy_and_debug!(StepChoice { span, longest, length, lengths, looks, floor, looked, rejected, limit, pace });
+copy_and_debug!(AdaptiveMemory { choice, floor, limit, pace });
 
 /// A run on its way, with what does not change.
 struct Drive<'a, S: GaussSystem, P, M> {
@@ -139,11 +129,12 @@ struct Drive<'a, S: GaussSystem, P, M> {
     end: S::Scalar,
     state: &'a mut State<S>,
     rates: &'a mut Rates<S>,
-    choice: &'a mut StepChoice<S>,
+    choice: &'a mut StepChoice,
+    floor: &'a mut Option<Floor<S>>,
 }
 
 impl<S: GaussSystem, M: EstimatingStep<S>> Control<S> for Adaptive<M> {
-    type StepMemory = StepChoice<S>;
+    type StepMemory = AdaptiveMemory<S>;
 
     fn tolerance(&self) -> Option<Tolerance> {
         Some(self.tolerance)
@@ -162,22 +153,13 @@ impl<S: GaussSystem, M: EstimatingStep<S>> Control<S> for Adaptive<M> {
         check_tolerances(relative, absolute).map_err(|kind| stopped(&start, kind))?;
         let (span, state, rates) = prepare(problem, &start, end).map_err(|kind| stopped(&start, kind))?;
         let from = state.t.lane(0);
-        let choice = StepChoice {
-            span,
-            longest: 0.0,
-            length: 0.0,
-            lengths: StepLength::new(self.method.estimate_order(), problem.system().smoothness()),
-            looks: Looks::new(self.input_changes, from, span),
-            floor: None,
-            looked: 0.0,
-            rejected: 0,
-            limit,
-            pace: Pace::new(from, limit),
-        };
-        let mut run = Progress::new((state, rates), end, choice, emit);
+        let choice = self.choice::<S>(problem.system().smoothness(), from, span);
+        let memory = AdaptiveMemory { choice, floor: None, limit, pace: Pace::new(from, limit) };
+        let mut run = Progress::new((state, rates), end, memory, emit);
         if !run.ended {
-            let lengths = self.first_and_longest(problem, &state, &rates, span, limit);
-            (run.memory.length, run.memory.longest) = lengths.map_err(|kind| stopped(&state, kind))?;
+            let every = (S::Scalar::one(), 0..S::Scalar::LANES);
+            let begun = self.begin_steps(problem, (&state, &rates), &every, limit, &mut run.memory.choice);
+            begun.map_err(|kind| stopped(&state, kind))?;
         }
         Ok(run)
     }
@@ -189,12 +171,12 @@ impl<S: GaussSystem, M: EstimatingStep<S>> Control<S> for Adaptive<M> {
         emit: &mut StepCallback<'_, S>,
     ) -> Result<(), IntegrationError> {
         let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
-        let Progress { state, rates, end, ended, memory: choice } = run;
-        let mut drive = Drive { control: self, problem, end: *end, state, rates, choice };
+        let Progress { state, rates, end, ended, memory } = run;
+        let AdaptiveMemory { choice, floor, limit, pace } = memory;
+        let (limit, mut drive) = (*limit, Drive { control: self, problem, end: *end, state, rates, choice, floor });
         loop {
             let (time, left) = (drive.state.t.lane(0), drive.left());
-            if let Some(hopeless) = drive.choice.pace.spent(time, left) {
-                let limit = drive.choice.limit;
+            if let Some(hopeless) = pace.spent(time, left) {
                 return Err(stopped(drive.state, drive.cause(StopReason::StepLimit { limit, hopeless })));
             }
             match drive.step() {
@@ -243,36 +225,24 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
 
     fn cause(&self, gave: StopReason) -> IntegrationErrorKind {
         let Self { state, rates, .. } = self;
-        let (stiff, length, lanes) = (self.control.method.properties().stiff, self.choice.length, 0..S::Scalar::LANES);
+        let (stiff, length, lanes) =
+            (self.control.method.properties().stiff, self.choice.length(), 0..S::Scalar::LANES);
         cause(self.problem, &StopPlace { state, rates, length, left: self.left(), stiff, lanes }, gave)
     }
 
     /// Tries a step. None when it is rejected, else how it was taken, and whether it was the last one.
     #[inline(always)]
     fn step(&mut self) -> Result<Option<(StepStatistics, bool)>, IntegrationErrorKind> {
-        let left = self.left();
-        // Stretch by 1 % rather than leave a sliver.
-        let last = self.choice.length >= left * 0.99;
-        let signed = if last {
-            self.end - self.state.t
-        } else {
-            to_a_number(self.state.t, if self.choice.span < 0.0 { -self.choice.length } else { self.choice.length })
-        };
-        if self.state.t + signed == self.state.t || !last && self.vanishes(self.choice.length) {
-            return Err(unresolved::<S::Scalar>(self.choice.length, self.state.t.lane(0), self.choice.span));
-        }
+        let signed = self.choice.propose(self.state.t, self.end - self.state.t)?;
         let (step, coarse) = match self.control.method.step_and_estimates(self.problem, self.state, self.rates, signed)
         {
             Ok(step) => step,
-            Err(kind) => return self.halve(left, kind),
+            Err(kind) => return self.halve(kind),
         };
-        let used = if last { left } else { self.choice.length };
-        let length = S::Scalar::from_f64(used);
-        let (control, limit) = (self.control, self.choice.lengths.limit());
+        let (control, last, length) = (self.control, self.choice.is_last(), S::Scalar::from_f64(self.choice.used()));
         let error = self.error_of(&step, coarse.as_ref(), length);
-        if error.is_nan() || error > limit {
-            self.choice.length = used * self.choice.lengths.reject(error);
-            self.choice.rejected += 1;
+        if self.choice.judge(error) {
+            self.choice.reject();
             return Ok(None);
         }
         let mut reached = step.state;
@@ -281,28 +251,33 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
         }
         let rates = match accept(self.problem, (self.state, self.rates), &mut reached, step.rates) {
             Ok(rates) => rates,
-            Err(kind) => return self.halve(left, kind),
+            Err(kind) => return self.halve(kind),
         };
         if S::CONSTRAINED {
             let trial = Trial { from: self.state, to: &reached, length, floor: None };
             let moved = match check_move(&control.tolerance, self.problem, &trial, &step.state) {
                 Ok(moved) => moved,
-                Err(kind) => return self.halve(left, kind),
+                Err(kind) => return self.halve(kind),
             };
-            if !last && self.ends_beside(used, &reached, &moved) {
+            if self.choice.ends_beside(self.problem, &trial, &moved, 0) {
                 return Ok(None);
             }
         }
-        if self.problem.has_input() && self.leads_over_input((used, error), (&reached, &rates)) {
+        let made = StepEnds { lane: 0, before: (self.state, self.rates), after: (&reached, &rates) };
+        if self.problem.has_input() && self.choice.leads_over_input(self.problem, &made, &control.tolerance) {
             return Ok(None);
         }
-        let excess = self.choice.floor.as_ref().map_or(0.0, |floor| {
+        let excess = self.floor.as_ref().map_or(0.0, |floor| {
             let (from, to) = (&self.problem.in_speeds(self.state), &self.problem.in_speeds(&reached));
             control.tolerance.excess(&Trial { from, to, length, floor: Some(floor) })
         });
-        let taken = StepStatistics { rejected: core::mem::take(&mut self.choice.rejected), excess };
         (*self.state, *self.rates) = (reached, rates);
-        self.choose_length(used, error, excess);
+        let logarithm = logarithm(self.choice.told(excess));
+        let growth = exponential(self.choice.exponent(logarithm));
+        let (taken, again) = self.choice.take(excess, logarithm, growth);
+        if again || self.floor.is_some() {
+            self.look(again);
+        }
         Ok(Some((taken, last)))
     }
 
@@ -314,92 +289,30 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
         let (fine, coarse) = (measured(&step.error), coarse.map(measured));
         let (from, to) = (&self.problem.in_speeds(self.state), &self.problem.in_speeds(&step.state));
         let above = |floor: &Floor<S>| tolerance.error_above(floor, (from, to, length), (&fine, coarse.as_ref()));
-        if let Some(floor) = &self.choice.floor {
+        if let Some(floor) = &*self.floor {
             return above(floor);
         }
         let error = tolerance.error(&Trial { from, to, length, floor: None }, &fine, coarse.as_ref());
-        if !(error.is_nan() || error > self.choice.lengths.limit()) {
+        if !self.choice.judge(error) {
             return error;
         }
         let floor = Floor::at(self.problem, self.state, self.rates);
         let error = above(&floor);
-        self.choice.floor = Some(floor);
+        *self.floor = Some(floor);
         error
-    }
-
-    /// Whether a step ends beside a place where constraints become dependent: then the next trial ends before it.
-    #[inline(always)]
-    fn ends_beside(&mut self, used: f64, reached: &State<S>, moved: &Rates<S>) -> bool {
-        if self.choice.rejected >= AVOIDED {
-            return false;
-        }
-        let length = S::Scalar::from_f64(used);
-        let trial = Trial { from: self.state, to: reached, length, floor: None };
-        let Some(part) = clear_part(self.problem, &trial, moved, 0) else { return false };
-        self.choice.length = used * self.choice.lengths.stop_before(part);
-        self.choice.rejected += 1;
-        true
-    }
-
-    /// Whether something acts within the step that its stages have not seen, as far as looks tell: then the next trial
-    /// ends there.
-    fn leads_over_input(&mut self, (used, error): (f64, f64), after: (&State<S>, &Rates<S>)) -> bool {
-        if self.choice.looks.want(self.state.t.lane(0), used, error) {
-            let made = StepEnds { lane: 0, before: (self.state, self.rates), after };
-            if let Some(shorter) = self.choice.looks.unseen(self.problem, &made, &self.control.tolerance) {
-                self.choice.length = shorter;
-                self.choice.rejected += 1;
-                return true;
-            }
-        }
-        self.choice.looks.take(error);
-        false
-    }
-
-    /// The length of the next step, after one of this length with its error and what rounding adds to it.
-    #[inline(always)]
-    fn choose_length(&mut self, used: f64, error: f64, excess: f64) {
-        // Well below what rounding does there is nothing to be learnt of the step.
-        let told = if excess > 0.0 && error < 0.5 { error.min(ROUNDED) } else { error };
-        self.choice.length = (used * self.choice.lengths.accept(told)).min(self.choice.longest);
-        // Measured again where rounding limits the step, elsewhere when steps have become short.
-        let short = self.choice.length < 0.5 * self.choice.looked;
-        if excess > 0.0 || short || self.choice.floor.is_some() {
-            self.look(excess > 0.0 || short);
-        }
-        self.choice.looked = self.choice.looked.max(self.choice.length);
     }
 
     /// Measures what rounding does where the run is now, or forgets it.
     #[cold]
     #[inline(never)]
     fn look(&mut self, again: bool) {
-        self.choice.floor = again.then(|| Floor::at(self.problem, self.state, self.rates));
-        if again {
-            self.choice.looked = self.choice.length;
-        }
+        *self.floor = again.then(|| Floor::at(self.problem, self.state, self.rates));
     }
 
-    /// A step that failed: a shorter one may do, as long as it changes the time, and the state if anything does.
     #[cold]
-    fn halve(
-        &mut self,
-        left: f64,
-        kind: IntegrationErrorKind,
-    ) -> Result<Option<(StepStatistics, bool)>, IntegrationErrorKind> {
-        self.choice.length = StepLength::part(&kind) * self.choice.length.min(left);
-        self.choice.rejected += 1;
-        self.choice.lengths.fail();
-        let h = S::Scalar::from_f64(if self.choice.span < 0.0 { -self.choice.length } else { self.choice.length });
-        let moves = change(self.state, self.rates, &(0..S::Scalar::LANES)) * self.choice.length;
-        let still = moves > 0.0 && moves < 0.5 * S::Scalar::EPSILON;
-        let hopeless = || is_hopeless(self.problem, self.state, 0..S::Scalar::LANES, (&kind, self.choice.rejected));
-        let ends = still || self.vanishes(self.choice.length) || self.state.t + h == self.state.t || hopeless();
-        if ends { Err(kind) } else { Ok(None) }
-    }
-
-    fn vanishes(&self, length: f64) -> bool {
-        length <= smallest::<S::Scalar>(self.state.t.lane(0), self.choice.span)
+    fn halve(&mut self, kind: IntegrationErrorKind) -> Result<Option<(StepStatistics, bool)>, IntegrationErrorKind> {
+        let of = (0..S::Scalar::LANES, self.state.t, self.left());
+        self.choice.halve(self.problem, (self.state, self.rates), of, kind).map(|()| None)
     }
 }
 
@@ -439,35 +352,48 @@ impl<M> Adaptive<M> {
 }
 
 impl<M> Adaptive<M> {
-    /// The lengths of the first step and of the longest.
-    fn first_and_longest<S, P>(
+    /// The choice of steps from a time over a span, in a run or a lane that is yet to [begin](Self::begin_steps).
+    #[must_use]
+    pub fn choice<S: GaussSystem>(&self, smoothness: Smoothness, from: f64, span: f64) -> StepChoice
+    where
+        M: EstimatingStep<S>,
+    {
+        let lengths = StepLength::new(self.method.estimate_order(), smoothness);
+        StepChoice::new(span, lengths, Looks::new(self.input_changes, from, span))
+    }
+
+    /// Chooses the length of the first step, in some lanes together, and the longest, of a run of so many steps; `ones`
+    /// is 1 in these lanes and 0 in others.
+    ///
+    /// # Errors
+    /// When a length that was set is none, or too short for the steps.
+    pub fn begin_steps<S, P>(
         &self,
         problem: &P,
-        start: &State<S>,
-        rates: &Rates<S>,
-        span: f64,
+        start: (&State<S>, &Rates<S>),
+        of: &(S::Scalar, Range<usize>),
         limit: u64,
-    ) -> Result<(f64, f64), IntegrationErrorKind>
+        choice: &mut StepChoice,
+    ) -> Result<(), IntegrationErrorKind>
     where
         S: GaussSystem,
         P: Problem<System = S>,
         M: EstimatingStep<S>,
     {
+        let span = choice.span;
         let longest = longest(self.largest_step, span, limit)?;
         Looks::check(self.input_changes)?;
-        let every = (S::Scalar::one(), 0..S::Scalar::LANES);
-        let estimate = || self.first_length(problem, (start, rates), &every, span.signum());
-        let first = self.first_step.unwrap_or_else(estimate);
-        if first.is_finite() && first > 0.0 {
-            Ok((first.min(longest), longest))
-        } else {
-            Err(IntegrationErrorKind::InvalidStep { step: first })
+        let first = self.first_step.unwrap_or_else(|| self.first_length(problem, start, of, span.signum()));
+        if !(first.is_finite() && first > 0.0) {
+            return Err(IntegrationErrorKind::InvalidStep { step: first });
         }
+        (choice.length, choice.longest) = (first.min(longest), longest);
+        Ok(())
     }
 
     /// A first step from the sizes of the state, of its derivative and of the change of the derivative over an Euler
     /// step (Hairer, Nørsett & Wanner, II.4), for some lanes together; `ones` is 1 in these and 0 in others.
-    pub fn first_length<S, P>(
+    fn first_length<S, P>(
         &self,
         problem: &P,
         (start, rates): (&State<S>, &Rates<S>),
