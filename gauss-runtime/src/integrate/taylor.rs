@@ -94,7 +94,7 @@ impl Taylor {
     }
 
     /// The order of the first series of a run.
-    pub fn first_order(&self) -> usize {
+    fn first_order(&self) -> usize {
         let order = -Real::ln(self.tolerance()) * ORDERS + 2.0;
         self.order.unwrap_or((order as usize).clamp(LOWEST, MAX_ORDER))
     }
@@ -111,7 +111,7 @@ impl Taylor {
     /// long, for the sizes.
     ///
     /// Beside them, how many times the tolerance rounding is where it is more: less than that cannot be left out.
-    pub fn lengths<S: TaylorSystem>(
+    fn lengths<S: TaylorSystem>(
         &self,
         series: &S::Series,
         judged: [(usize, f64); 2],
@@ -171,8 +171,14 @@ pub struct Order {
 }
 
 impl Order {
+    /// Before the first step of a run.
+    #[must_use]
+    pub fn first(control: &Taylor) -> Self {
+        Self::new(control, control.first_order())
+    }
+
     /// Series of this order, from 2 on.
-    pub fn new(control: &Taylor, order: usize) -> Self {
+    fn new(control: &Taylor, order: usize) -> Self {
         let lower = order.saturating_sub(APART).max(2);
         let worth = |from: usize, to: usize| Real::ln(cost(to) / cost(from));
         Self {
@@ -181,18 +187,32 @@ impl Order {
         }
     }
 
-    /// The orders at which the length of a step is judged, with what the remainder of their series is of the last term.
-    pub fn judged(&self) -> [(usize, f64); 2] {
-        self.judged
-    }
-
     /// The order.
+    #[must_use]
     pub fn value(&self) -> usize {
         self.judged[1].0
     }
 
+    /// Chooses the order for the next step, where none was set: what is better for most of those that were taken.
+    pub fn choose<'a>(&mut self, control: &Taylor, taken: impl Iterator<Item = &'a SeriesStep>) {
+        if control.order.is_some() {
+            return;
+        }
+        let (mut sum, mut count) = ([0.0; 2], 0.0);
+        for SeriesStep { lengths, .. } in taken.filter(|step| step.tried < step.longest) {
+            sum = [sum[0] + lengths[0], sum[1] + lengths[1]];
+            count += 1.0;
+        }
+        if count > 0.0 {
+            let better = self.better(sum.map(|lengths| lengths / count));
+            if better != self.value() {
+                *self = Self::new(control, better);
+            }
+        }
+    }
+
     /// The order that makes more way for its cost, from ln of the lengths of steps.
-    pub fn better(&self, [short, long]: [f64; 2]) -> usize {
+    fn better(&self, [short, long]: [f64; 2]) -> usize {
         let ([(lower, _), (order, _)], gain) = (self.judged, long - short);
         if gain < self.worth[0] {
             return (order - 2).max(LOWEST.min(order));
@@ -203,45 +223,110 @@ impl Order {
     }
 }
 
-/// A step that the projection onto the constraints would move farther than its error, and that is tried again.
-#[derive(Clone, Copy, Default)]
-pub struct ShortenedStep {
-    /// The part of the length that the series allows, and why it is not all of it.
-    reason: Option<(f64, IntegrationErrorKind)>,
+/// The choice of the lengths of steps of a run, or of a lane, as it goes on.
+#[derive(Clone, Copy)]
+pub struct SeriesStep {
+    span: f64,
+    longest: f64,
+    /// About the length of the last step; 0 before the first.
+    length: f64,
+    /// The present trial: ln of the lengths that the series allows at the orders that are compared, its own length,
+    /// whether it is the last step, and how much rounding is beyond the tolerance.
+    lengths: [f64; 2],
+    tried: f64,
+    last: bool,
+    excess: f64,
+    /// The part of the length that the series allows, and why it is not all of it: the projection onto the constraints
+    /// would move the step farther than its error.
+    shortened: Option<(f64, IntegrationErrorKind)>,
     rejected: u32,
 }
 
-impl ShortenedStep {
-    /// The part of the length that is tried.
-    pub fn part(&self) -> f64 {
-        self.reason.map_or(1.0, |(part, _)| part)
+impl SeriesStep {
+    /// Before a run over a span, whose longest step is not known yet.
+    #[must_use]
+    pub fn new(span: f64) -> Self {
+        let (longest, length, lengths, tried, excess) = (0.0, 0.0, [0.0; 2], 0.0, 0.0);
+        Self { span, longest, length, lengths, tried, last: false, excess, shortened: None, rejected: 0 }
     }
 
-    /// The error where no shorter step can be made.
-    pub fn reason(&self) -> Option<IntegrationErrorKind> {
-        self.reason.map(|(_, kind)| kind)
+    /// The run begins, with so many steps allowed.
+    ///
+    /// # Errors
+    /// When the longest step that was set is none, or too short for the steps.
+    pub fn begin(&mut self, control: &Taylor, limit: u64) -> Result<(), IntegrationErrorKind> {
+        self.longest = longest(control.largest_step, self.span, limit)?;
+        Ok(())
     }
 
-    /// Returns the statistics of the step that was taken at last, and starts anew.
-    pub fn taken(&mut self, excess: f64) -> StepStatistics {
-        StepStatistics { rejected: core::mem::take(self).rejected, excess }
+    /// About the length of the last step.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.length
     }
 
-    /// After a step from a state that failed in some lanes: whether a shorter one may do.
+    /// Whether the present trial is the last step.
+    #[must_use]
+    pub fn is_last(&self) -> bool {
+        self.last
+    }
+
+    fn part(&self) -> f64 {
+        self.shortened.map_or(1.0, |(part, _)| part)
+    }
+
+    /// The step to try from a time with this time left, with its sign, as long as the series in some lanes allows.
+    ///
+    /// # Errors
+    /// When it would do nothing, or the series has no length.
+    pub fn propose<S: TaylorSystem, T: Real>(
+        &mut self,
+        control: &Taylor,
+        (series, order): (&S::Series, &Order),
+        (t, rest): (T, T),
+        lanes: Range<usize>,
+    ) -> Result<T, IntegrationErrorKind> {
+        let direction = if self.span < 0.0 { -1.0 } else { 1.0 };
+        (self.lengths, self.excess) = control.lengths::<S>(series, order.judged, direction * self.length, lanes);
+        let length = Real::exp(self.lengths[1]);
+        // A NaN among the coefficients makes no length; where they are all zero the system is at rest.
+        if length.is_nan() {
+            return Err(IntegrationErrorKind::NonFinite { part: RunPart::Derivative });
+        }
+        self.tried = (length * self.part()).min(self.longest);
+        self.last = self.tried >= rest.lane(0).abs() * 0.999;
+        let h = if self.last { rest } else { to_a_number(t, direction * self.tried) };
+        if t + h == t || !self.last && self.tried <= smallest::<T>(t.lane(0), self.span) {
+            let unresolved = unresolved::<T>(self.tried, t.lane(0), self.span);
+            return Err(self.shortened.map_or(unresolved, |(_, kind)| kind));
+        }
+        Ok(h)
+    }
+
+    /// The trial is taken.
+    pub fn take(&mut self) -> StepStatistics {
+        (self.length, self.shortened) = (self.tried, None);
+        StepStatistics { rejected: core::mem::take(&mut self.rejected), excess: self.excess }
+    }
+
+    /// After a step from a state that failed in some lanes: a shorter one may do.
+    ///
+    /// # Errors
+    /// The one that is given, where none will.
     #[cold]
-    pub fn again<S: TaylorSystem, P: Problem<System = S>>(
+    pub fn shorten<S: TaylorSystem, P: Problem<System = S>>(
         &mut self,
         (problem, state): (&P, &State<S>),
         lanes: Range<usize>,
         kind: IntegrationErrorKind,
-    ) -> bool {
+    ) -> Result<(), IntegrationErrorKind> {
         use IntegrationErrorKind::{Projection, ProjectionTooFar};
         self.rejected += 1;
         let again = self.rejected <= SHORTENED
             && matches!(kind, Projection { .. } | ProjectionTooFar { .. })
             && !is_hopeless(problem, state, lanes, (&kind, self.rejected));
-        self.reason = Some((self.part() * StepLength::part(&kind), kind));
-        again
+        self.shortened = Some((self.part() * StepLength::part(&kind), kind));
+        if again { Ok(()) } else { Err(kind) }
     }
 }
 
@@ -334,14 +419,10 @@ assert!((after - before).abs() < 1e-13 * before);
 /// The choice of orders and steps of a run, as it goes on.
 #[derive(Clone, Copy)]
 pub struct OrderChoice {
-    direction: f64,
-    span: f64,
-    longest: f64,
     limit: u64,
     pace: Pace,
     order: Order,
-    guess: f64,
-    shortened: ShortenedStep,
+    step: SeriesStep,
 }
 
 impl<S: TaylorSystem> Control<S> for Taylor {
@@ -358,19 +439,11 @@ impl<S: TaylorSystem> Control<S> for Taylor {
         let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
         check_tolerances(self.relative, self.absolute).map_err(|kind| stopped(&start, kind))?;
         let (span, state, rates) = prepare(problem, &start, end).map_err(|kind| stopped(&start, kind))?;
-        let choice = OrderChoice {
-            direction: if span < 0.0 { -1.0 } else { 1.0 },
-            span,
-            longest: 0.0,
-            limit,
-            pace: Pace::new(state.t.lane(0), limit),
-            order: Order::new(self, self.first_order()),
-            guess: 0.0,
-            shortened: ShortenedStep::default(),
-        };
+        let (pace, order) = (Pace::new(state.t.lane(0), limit), Order::first(self));
+        let choice = OrderChoice { limit, pace, order, step: SeriesStep::new(span) };
         let mut run = Progress::new((state, rates), end, choice, emit);
         if !run.ended {
-            run.memory.longest = longest(self.largest_step, span, limit).map_err(|kind| stopped(&state, kind))?;
+            run.memory.step.begin(self, limit).map_err(|kind| stopped(&state, kind))?;
         }
         Ok(run)
     }
@@ -384,47 +457,34 @@ impl<S: TaylorSystem> Control<S> for Taylor {
         let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
         let mut series = S::Series::zero();
         let Progress { state, rates, end, ended, memory } = run;
-        let OrderChoice { direction, span, longest, limit, pace, order, guess, shortened } = memory;
-        let (end, direction, longest) = (*end, *direction, *longest);
+        let (OrderChoice { limit, pace, order, step }, end) = (memory, *end);
         loop {
             let left = (end - state.t).lane(0).abs();
             let lanes = 0..S::Scalar::LANES;
-            let place = StopPlace { state, rates, length: *guess, left, stiff: false, lanes };
+            let place = StopPlace { state, rates, length: step.length(), left, stiff: false, lanes: lanes.clone() };
             let gave = |gave| stopped(state, cause(problem, &place, gave));
             if let Some(hopeless) = pace.spent(state.t.lane(0), left) {
                 return Err(gave(StopReason::StepLimit { limit: *limit, hopeless }));
             }
             expanded(problem, state, order.value(), &mut series);
-            let (lengths, excess) = self.lengths::<S>(&series, order.judged, direction * *guess, 0..S::Scalar::LANES);
-            let length = Real::exp(lengths[1]);
-            // A NaN among the coefficients makes no length; where they are all zero the system is at rest.
-            if length.is_nan() {
-                return Err(gave(StopReason::AnyStep(IntegrationErrorKind::NonFinite { part: RunPart::Derivative })));
-            }
-            let length = (length * shortened.part()).min(longest);
-            let last = length >= left * 0.999;
-            let h = if last { end - state.t } else { to_a_number(state.t, direction * length) };
-            if state.t + h == state.t || !last && length <= smallest::<S::Scalar>(state.t.lane(0), *span) {
-                let unresolved = unresolved::<S::Scalar>(length, state.t.lane(0), *span);
-                return Err(gave(StopReason::AnyStep(shortened.reason().unwrap_or(unresolved))));
-            }
+            let h = step.propose::<S, _>(self, (&series, order), (state.t, end - state.t), lanes.clone());
+            let h = h.map_err(|kind| gave(StopReason::AnyStep(kind)))?;
             let mut reached = summed(problem, state.t, &series, order.value(), h);
-            if last {
+            if step.is_last() {
                 reached.t = end;
             }
-            let next: Rates<S> = match self.accepted(problem, (state, rates), &mut reached) {
+            let next = match self.accepted(problem, (state, rates), &mut reached) {
                 Ok(next) => next,
-                Err(kind) if shortened.again((problem, state), 0..S::Scalar::LANES, kind) => continue,
-                Err(kind) => return Err(gave(StopReason::AnyStep(kind))),
-            };
-            (*state, *rates, *ended, *guess) = (reached, next, last, length);
-            if self.order.is_none() && length < longest {
-                let better = order.better(lengths);
-                if better != order.value() {
-                    *order = Order::new(self, better);
+                Err(kind) => {
+                    let again = step.shorten((problem, state), lanes, kind);
+                    again.map_err(|kind| gave(StopReason::AnyStep(kind)))?;
+                    continue;
                 }
-            }
-            if emit(state, rates, shortened.taken(excess)).is_break() || last {
+            };
+            let (last, taken) = (step.is_last(), step.take());
+            (*state, *rates, *ended) = (reached, next, last);
+            order.choose(self, core::iter::once(&*step));
+            if emit(state, rates, taken).is_break() || last {
                 return Ok(());
             }
         }
