@@ -4,14 +4,15 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use gauss_runtime::configuration::Configuration;
+use gauss_runtime::integrate::drive::cause::{StopPlace, StopReason, cause};
 use gauss_runtime::integrate::drive::control::prepare;
-use gauss_runtime::integrate::drive::fixed::{further, steps_within};
+use gauss_runtime::integrate::drive::fixed::steps_between;
 use gauss_runtime::integrate::drive::projection::accept;
 use gauss_runtime::integrate::{DEFAULT_LIMIT, IntegrationErrorKind, OneStep, Problem, Rates, State};
 use gauss_runtime::real::Real;
 use gauss_runtime::simd::Packed;
 
-use crate::lanes::{BatchSystem, RunError, SingleConfiguration, SingleSpeeds};
+use crate::lanes::{BatchSystem, RunError, SingleConfiguration, SingleSpeeds, number, numbers_of};
 
 /// The interval of time of a run, and the length of its steps.
 pub(crate) struct Interval {
@@ -50,6 +51,7 @@ enum StepTrial {
 struct Block<'a, S: BatchSystem, P, M> {
     problem: &'a P,
     method: &'a M,
+    interval: &'a Interval,
     states: usize,
     held: Vec<StoppedLane<S>>,
     failures: Vec<RunError>,
@@ -64,14 +66,13 @@ pub(crate) fn advance<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>>(
     states: usize,
     (q, z): (&mut S::Configuration, &mut S::Speeds),
 ) -> Vec<RunError> {
-    let mut block = Block { problem, method, states, held: Vec::new(), failures: Vec::new() };
-    let Some((span, mut reached)) = block.start(interval, q, z) else { return block.failures };
+    let mut block = Block { problem, method, interval, states, held: Vec::new(), failures: Vec::new() };
+    let Some((span, mut reached)) = block.start(q, z) else { return block.failures };
     // Lanes that cannot even start get their states back at the end.
     let (given, refused) = ((*q, *z), block.failures.len());
 
     let (start, end) = (reached.0.t, S::Scalar::from_f64(interval.end));
-    let time = further(interval.start, interval.end);
-    let steps = match steps_within::<S::Scalar>(span, time, interval.step.abs(), DEFAULT_LIMIT) {
+    let steps = match steps_between([start, end], interval.step.abs(), DEFAULT_LIMIT) {
         _ if span == 0.0 => 0,
         Ok(steps) => steps,
         Err(kind) => {
@@ -92,7 +93,7 @@ pub(crate) fn advance<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>>(
                 (reached, trial) = (next, StepTrial::OfTheAble(None));
                 n += 1;
             }
-            (outcome, _) => match block.after(trial, outcome.err(), &reached.0) {
+            (outcome, _) => match block.after(trial, outcome.err(), &reached) {
                 Some(next) => trial = next,
                 None => break,
             },
@@ -117,18 +118,19 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
 
     /// The span of time and the state at its start, which is good in all lanes: lanes that are not hold the state of
     /// one that is. `None` when none is.
-    fn start(&mut self, interval: &Interval, q: &S::Configuration, z: &S::Speeds) -> Option<(f64, AdvancedState<S>)> {
+    fn start(&mut self, q: &S::Configuration, z: &S::Speeds) -> Option<(f64, AdvancedState<S>)> {
+        let interval = self.interval;
         if !(interval.step.is_finite() && interval.step != 0.0) {
             self.fail_the_rest(interval.start, IntegrationErrorKind::InvalidStep { step: interval.step });
             return None;
         }
-        match self.check(interval, q, z) {
+        match self.check(q, z) {
             Ok(started) => Some(started),
             Err(kind) => {
                 let mut good = None;
                 for state in 0..self.states {
                     let single = (q.extract(state), z.extract(state));
-                    match self.check(interval, &S::Configuration::repeat(&single.0), &S::Speeds::repeat(&single.1)) {
+                    match self.check(&S::Configuration::repeat(&single.0), &S::Speeds::repeat(&single.1)) {
                         Ok(_) => good = Some(single),
                         Err(kind) => self.failures.push(RunError::new(state, interval.start, kind)),
                     }
@@ -140,7 +142,7 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
                     z.replace(lane, &good_z);
                 }
                 // Lanes with parameters of their own may all do alone and not together; then there is no one to blame.
-                let Ok(started) = self.check(interval, &q, &z) else {
+                let Ok(started) = self.check(&q, &z) else {
                     self.fail_the_rest(interval.start, kind);
                     return None;
                 };
@@ -154,13 +156,8 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
     }
 
     /// The start of a run, refused where a step from there would be.
-    fn check(
-        &self,
-        interval: &Interval,
-        q: &S::Configuration,
-        z: &S::Speeds,
-    ) -> Result<(f64, AdvancedState<S>), IntegrationErrorKind> {
-        let system = self.problem.system();
+    fn check(&self, q: &S::Configuration, z: &S::Speeds) -> Result<(f64, AdvancedState<S>), IntegrationErrorKind> {
+        let (system, interval) = (self.problem.system(), self.interval);
         let (t, q) = (S::Scalar::from_f64(interval.start), q.renormalise());
         let start = State { t, q, y: self.problem.variables(t, &q, z) };
         let (span, start, rates) = prepare(self.problem, &start, S::Scalar::from_f64(interval.end))?;
@@ -177,7 +174,12 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
     /// others stand still; those that are to blame stop, and the others make the step.
     #[cold]
     #[inline(never)]
-    fn after(&mut self, trial: StepTrial, failed: Option<IntegrationErrorKind>, from: &State<S>) -> Option<StepTrial> {
+    fn after(
+        &mut self,
+        trial: StepTrial,
+        failed: Option<IntegrationErrorKind>,
+        (from, rates): &AdvancedState<S>,
+    ) -> Option<StepTrial> {
         let first = match (trial, failed) {
             (StepTrial::OfTheAble(Some(kind)), Some(_)) => {
                 let going = (0..self.states).find(|&state| self.is_able(state)).unwrap_or(0);
@@ -188,7 +190,12 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
             (StepTrial::OfTheAble(_), None) => return Some(trial),
             (StepTrial::Alone(state, first), failed) => {
                 if let Some(kind) = failed {
-                    self.failures.push(RunError::new(state, from.t.extract(state).lane(0), kind));
+                    let (length, time) = (self.interval.step.abs(), number(from.t, state));
+                    let left = (self.interval.end - time).abs();
+                    let (stiff, lanes) = (self.method.properties().stiff, numbers_of::<S::Scalar>(state));
+                    let place = StopPlace { state: from, rates, length, left, stiff, lanes };
+                    let kind = cause(self.problem, &place, StopReason::Step(kind));
+                    self.failures.push(RunError::new(state, time, kind));
                     self.held.extend(self.lanes_of(state).map(|lane| StoppedLane::at(from, lane)));
                 }
                 StepTrial::Alone(state + 1, first)

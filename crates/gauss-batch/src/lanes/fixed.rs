@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use gauss_runtime::integrate::drive::cause::StopReason;
 use gauss_runtime::integrate::drive::control::StepStatistics;
-use gauss_runtime::integrate::drive::fixed::{Advanced, Fixed, further, steps_within};
+use gauss_runtime::integrate::drive::fixed::{Advanced, Fixed, steps_between, toward};
 use gauss_runtime::integrate::drive::projection::accept;
 use gauss_runtime::integrate::problem::called_equations::CalledEquations;
 use gauss_runtime::integrate::problem::equations::Problem;
@@ -16,7 +16,7 @@ use gauss_runtime::real::Real;
 use gauss_runtime::simd::Packed;
 
 use super::system::BatchSystem;
-use super::{Group, LaneControl, Sealed, Verdict, chosen_state, number, ones_in};
+use super::{Group, LaneControl, Sealed, Verdict, chosen_state, ones_in};
 
 /// Progress of a lane on its way.
 #[derive(Clone, Copy, Default)]
@@ -82,11 +82,7 @@ pub struct March<S: BatchSystem> {
 impl<S: BatchSystem> March<S> {
     /// Prepares steps of length |step|, in the direction of the span.
     pub(super) fn new(step: S::Scalar, span: f64) -> Result<Self, IntegrationErrorKind> {
-        let first = step.lane(0);
-        if !(first.is_finite() && first != 0.0) {
-            return Err(IntegrationErrorKind::InvalidStep { step: first });
-        }
-        let length = if (span < 0.0) == (first < 0.0) { step } else { -step };
+        let length = toward(step, span)?;
         Ok(Self { lanes: vec![FixedLane::default(); S::Scalar::WIDTH], starts: S::Scalar::zero(), length })
     }
 
@@ -96,8 +92,7 @@ impl<S: BatchSystem> March<S> {
 
     /// A lane has got a state to start from, and may make so many steps.
     pub(super) fn begin(&mut self, group: &Group<S>, lane: usize, limit: u64) -> Result<(), IntegrationErrorKind> {
-        let time = further(number(group.state.t, lane), number(group.end, lane));
-        let all = steps_within::<S::Scalar>(group.left(lane), time, self.length(), limit)?;
+        let all = steps_between([group.state.t, group.end].map(|t| t.extract(lane)), self.length(), limit)?;
         self.lanes[lane] = FixedLane { made: 0, all, steps: false };
         self.starts.replace(lane, &group.state.t.extract(lane));
         Ok(())

@@ -38,6 +38,13 @@ struct Top<T> {
     g: T,
 }
 
+/// A point in a bath, so thick that speeds decay within a part of a step.
+#[derive(GaussDynamics)]
+#[gauss(coordinates(x), particle(mass = 1, position = [x, 0, 0]), damping = thick / 2 * rate(x) * rate(x))]
+struct Bath<T> {
+    thick: T,
+}
+
 /// A point on a circle, in two coordinates and a constraint.
 #[derive(GaussDynamics)]
 #[gauss(
@@ -309,6 +316,25 @@ fn a_state_that_stops_on_the_way_stays_at_its_last_good_state() {
         last_samples += usize::from(failure.is_some_and(|failure| failure.time > 0.1));
     }
     assert!(last_samples >= 3, "{last_samples} of 18 stop on the way");
+}
+
+/// The error of a state says why its steps could not go on, as that of a single run does, not where.
+#[test]
+fn a_state_that_stops_is_told_the_cause() {
+    type Four = Lanes<f64, 4>;
+    let (kernel, alone) = (Bath { thick: Four::splat(1e4) }.kernel(), Bath { thick: 1e4 }.kernel());
+    let (kernel, alone) = (kernel.expect("a bath"), alone.expect("a bath"));
+    // Every other one is at rest, and stays there.
+    let start = |i: usize| (SVector::from([0.0]), SVector::from([(i % 2) as f64]));
+    let mut states = States::<BathKernel<Four>>::from_fn(6, start);
+    let stopped = Batch::new(&kernel).advance(&RungeKutta(Classical4), 0.01, 0.0..10.0, &mut states);
+    let failures = stopped.expect_err("the moving ones stop").failures;
+    assert_eq!(failures.iter().map(|failure| failure.state).collect::<Vec<_>>(), [1, 3, 5]);
+    let run = Simulation::new(&alone).control(Fixed::by(RungeKutta(Classical4), 0.01));
+    let (q, z) = start(1);
+    let error = run.run_to_end(q, z, 0.0..10.0).expect_err("stiff");
+    assert!(matches!(error.kind, IntegrationErrorKind::Stiff { .. }), "{error}");
+    assert!(failures.iter().all(|failure| (failure.time, failure.kind) == (error.time, error.kind)), "{failures:?}");
 }
 
 #[test]

@@ -61,14 +61,15 @@ fn number_of_steps<T: Real>(span: f64, length: f64) -> f64 {
     if whole { round(count).max(1.0) } else { floor(count) + 1.0 }
 }
 
-/// Number of steps of a length that fill a span of time that comes as far from zero as `time`, where these are no more
-/// than the limit and follow one another: neighbouring times are numbers that differ where a step is no less than their
-/// distance there.
+/// Number of steps of a length that lead from one time to another, where these are no more than the limit and follow
+/// one another: neighbouring times are numbers that differ where a step is no less than their distance there.
 ///
 /// # Errors
 /// [`IntegrationErrorKind::TooManySteps`], [`IntegrationErrorKind::TimeTooCoarse`].
-pub fn steps_within<T: Real>(span: f64, time: f64, length: f64, limit: u64) -> Result<u64, IntegrationErrorKind> {
-    let steps = number_of_steps::<T>(span, length);
+pub fn steps_between<T: Real>([from, to]: [T; 2], length: f64, limit: u64) -> Result<u64, IntegrationErrorKind> {
+    let steps = number_of_steps::<T>((to - from).lane(0), length);
+    let [from, to] = [from, to].map(|t| t.lane(0));
+    let time = if from.abs() > to.abs() { from } else { to };
     if steps > limit as f64 {
         Err(IntegrationErrorKind::TooManySteps { limit })
     } else if length < T::EPSILON * time.abs() {
@@ -78,10 +79,17 @@ pub fn steps_within<T: Real>(span: f64, time: f64, length: f64, limit: u64) -> R
     }
 }
 
-/// The one of two times that is further from zero.
+/// A step of a length in the direction of a span.
+///
+/// # Errors
+/// [`IntegrationErrorKind::InvalidStep`].
 #[inline]
-pub fn further(a: f64, b: f64) -> f64 {
-    if a.abs() > b.abs() { a } else { b }
+pub fn toward<T: Real>(step: T, span: f64) -> Result<T, IntegrationErrorKind> {
+    let length = step.lane(0);
+    if !(length.is_finite() && length != 0.0) {
+        return Err(IntegrationErrorKind::InvalidStep { step: length });
+    }
+    Ok(if (span < 0.0) == (length < 0.0) { step } else { -step })
 }
 
 /// Steps of one length, the last one ending where it should, as a run makes them.
@@ -109,18 +117,13 @@ impl<T: Real> EqualSteps<T> {
         emit: &mut StepCallback<'_, S>,
     ) -> Result<Progress<S, (Self, R)>, IntegrationError> {
         let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
-        let positive = length.lane(0).abs();
-        if !(positive.is_finite() && positive > 0.0) {
-            return Err(stopped(start, IntegrationErrorKind::InvalidStep { step: length.lane(0) }));
-        }
-        let (span, state, rates) = prepare(problem, start, end).map_err(|kind| stopped(start, kind))?;
-        let h = if (span < 0.0) == (length.lane(0) < 0.0) { length } else { -length };
+        let h = toward(length, (end - start.t).lane(0)).map_err(|kind| stopped(start, kind))?;
+        let (_, state, rates) = prepare(problem, start, end).map_err(|kind| stopped(start, kind))?;
         let none = Self { start: state.t, h, steps: 0, made: 0, stiff };
         let mut run = Progress::new((state, rates), end, (none, rest), emit);
         if !run.ended {
-            let time = further(state.t.lane(0), end.lane(0));
-            let steps = steps_within::<T>(span, time, positive, limit).map_err(|kind| stopped(&state, kind))?;
-            run.memory.0.steps = steps;
+            let steps = steps_between([state.t, end], h.lane(0).abs(), limit);
+            run.memory.0.steps = steps.map_err(|kind| stopped(&state, kind))?;
         }
         Ok(run)
     }
