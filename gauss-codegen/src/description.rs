@@ -21,6 +21,8 @@ pub struct Description {
     pub frames: Vec<String>,
     /// Names of the joints of `reactions(…)`.
     pub joints: Vec<String>,
+    /// Names of the coordinates of `motion(…)`, whose driving forces are known.
+    pub motions: Vec<String>,
     /// Contacts, ranges and dry joints, in the order of their rows.
     pub contacts: Vec<ContactDescription>,
     /// The count of the first numbers of the halves of A⁻¹Wᵀ, the pivots of A and what is below them, where velocities

@@ -138,7 +138,7 @@ impl<'g> Formulation<'g> {
     }
 }
 
-/// Reactions of joints, held to the definition.
+/// Reactions of joints and driving forces, held to the definition.
 fn reactions_of<'g>(
     reactions: &Reactions<'g>,
     (provenance, system): (&Provenance<'g>, &System<'g>),
@@ -153,8 +153,8 @@ fn reactions_of<'g>(
     if !reactions.has([constraints, system.contacts.rates.len()]) {
         return Err(failed(provenance, system, &"joints that are let go have other constraints or contacts"));
     }
-    let formula = reactions.formula(multipliers, elimination.map(|elimination| (elimination, system)));
-    Ok(std::iter::once(formula).chain(reactions.of_contacts()).collect())
+    let formulas = reactions.formulas(multipliers, elimination.map(|elimination| (elimination, system)));
+    Ok(formulas.into_iter().chain(reactions.of_contacts()).collect())
 }
 
 /// Whatever is derived from the system as it is, and λ.

@@ -57,6 +57,8 @@ pub enum Method {
     /// Change of these forces and torques by unit contact forces, row by row; only with contacts, and without
     /// constraints.
     ContactReactions,
+    /// The force of each motion and its power, one after the other; only with motions.
+    DrivingForces,
     /// ∂C/∂ż at ż = 0; what holds weight and buoyancy.
     NonlinearEffects,
     GravityTorques,
@@ -110,10 +112,11 @@ impl Method {
         [Self::TotalMass, Self::CenterOfMass, Self::CentroidalMomentum, Self::CentroidalMatrix, Self::CentroidalBias];
 
     /// Methods that a kernel has on request, but single frames, and with contacts.
-    pub const ASKED_FOR: [Self; 17] = [
+    pub const ASKED_FOR: [Self; 18] = [
         Self::Frames,
         Self::Reactions,
         Self::ContactReactions,
+        Self::DrivingForces,
         Self::CenterOfMass,
         Self::CentroidalMomentum,
         Self::CentroidalMatrix,
@@ -165,6 +168,7 @@ impl Method {
             Method::Frames => "frames",
             Method::Reactions => "reactions_at",
             Method::ContactReactions => "contact_reactions",
+            Method::DrivingForces => "driving_forces_at",
             Method::TotalMass => "total_mass",
             Method::CenterOfMass => "center_of_mass",
             Method::CentroidalMomentum => "centroidal_momentum",

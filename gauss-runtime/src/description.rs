@@ -155,6 +155,9 @@ by_method! {
     reactions_at,
     /// Cost of [`ContactReactions::contact_reactions`](crate::reactions::ContactReactions::contact_reactions).
     contact_reactions,
+    /// Cost of [`DrivenSystem::driving_forces_at`](crate::driven::DrivenSystem::driving_forces_at): of all motions
+    /// together.
+    driving_forces_at,
     /// Cost of [`CentroidalSystem::center_of_mass`](crate::centroidal::CentroidalSystem::center_of_mass).
     center_of_mass,
     /// Cost of [`CentroidalSystem::centroidal_momentum`](crate::centroidal::CentroidalSystem::centroidal_momentum).

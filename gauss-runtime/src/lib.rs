@@ -56,6 +56,7 @@ assert!((0.202 * end.w.z + 0.002 * end.spin - 0.01).abs() < 1e-12);
 //! | [`constraint`] | [`ConstrainedSystem`](constraint::ConstrainedSystem): multipliers, projection on constraints |
 //! | [`forces`] | [`ForcedSystem`](forces::ForcedSystem): forces, element by element; powers and the balance of energy |
 //! | [`frames`] | [`FramedSystem`](frames::FramedSystem): poses, velocities and Jacobians of frames by name |
+//! | [`driven`] | [`DrivenSystem`](driven::DrivenSystem): forces that move coordinates as functions of time |
 //! | [`reactions`](mod@reactions) | [`Reactions`](reactions::Reactions): forces and torques of joints and bearings |
 //! | [`centroidal`] | [`CentroidalSystem`](centroidal::CentroidalSystem): centre of mass, momenta about it; gravity torques |
 //! | [`operational`] | the inertia of a system as felt at a frame, and the mass matrix factored |
@@ -127,6 +128,7 @@ pub mod configuration;
 pub mod constraint;
 pub mod contact;
 pub mod description;
+pub mod driven;
 pub mod dual;
 pub mod error;
 pub mod forces;

@@ -12,6 +12,7 @@ pub use crate::configuration::{Configuration, Product, VectorSpace};
 pub use crate::constraint::ConstrainedSystem;
 pub use crate::contact::ContactSystem;
 pub use crate::description::DescribedSystem;
+pub use crate::driven::DrivenSystem;
 pub use crate::error::ParameterError;
 pub use crate::forces::ForcedSystem;
 pub use crate::frames::{FrameName, FramedSystem, JacobianRates};
@@ -37,8 +38,8 @@ pub use crate::without_clause::{
     OfClauseConstraint as _, OfClauseContact as _, OfClauseForce as _, OfClauseFrames as _, OfClauseLinearize as _,
     OfClauseLinearizeHessian as _, OfClauseLinearizeInverse as _, OfClauseLinearizeParameters as _,
     OfClauseMethodsCentroidal as _, OfClauseMethodsGravityTorques as _, OfClauseMethodsJacobianRates as _,
-    OfClauseReactions as _, OfClauseReactionsBesideContacts as _, OfClauseRegressor as _, OfClauseTaylor as _,
-    OfOneBody as _,
+    OfClauseMotion as _, OfClauseReactions as _, OfClauseReactionsBesideContacts as _, OfClauseRegressor as _,
+    OfClauseTaylor as _, OfOneBody as _,
 };
 pub use nalgebra::{
     Isometry2, Isometry3, Matrix3, Matrix6, Quaternion, SMatrix, SVector, Translation3, UnitComplex, UnitQuaternion,

@@ -79,6 +79,13 @@ pub trait HasClauseMethodsGravityTorques {}
 pub trait HasClauseReactions {}
 
 #[diagnostic::on_unimplemented(
+    message = "`{Self}` has no driving forces, because nothing in its struct is driven",
+    label = "the clause `motion(…)` brings them",
+    note = "add `motion(crank = …)`, with a function of `t`, to the `#[gauss(…)]` of the struct"
+)]
+pub trait HasClauseMotion {}
+
+#[diagnostic::on_unimplemented(
     message = "`{Self}` has no power series, because its struct does not ask for them",
     label = "the clause `taylor` brings them",
     note = "add `taylor` to the `#[gauss(…)]` of the struct"
@@ -144,6 +151,7 @@ methods! {
     }
     HasClauseMethodsGravityTorques: OfClauseMethodsGravityTorques { gravity_torques }
     HasClauseReactions: OfClauseReactions { reactions reactions_at reaction }
+    HasClauseMotion: OfClauseMotion { driving_forces driving_forces_at }
     HasClauseTaylor: OfClauseTaylor { expand }
     HasClauseReactionsBesideContacts: OfClauseReactionsBesideContacts { contact_reactions reaction_under }
     HasClauseConstraint: OfClauseConstraint { multipliers position_residual velocity_residual }
@@ -158,7 +166,7 @@ mod tests {
 
     const HERE: &str = include_str!("without_clause.rs");
     /// Each bound, the trait that has its methods, and the file of that.
-    const THERE: [(&str, &str, &str); 16] = [
+    const THERE: [(&str, &str, &str); 17] = [
         ("Linearize", "LinearizedSystem", include_str!("linearize.rs")),
         ("LinearizeParameters", "ParametricSystem", include_str!("identification.rs")),
         ("LinearizeInverse", "InverseLinearizedSystem", include_str!("inverse.rs")),
@@ -169,6 +177,7 @@ mod tests {
         ("MethodsCentroidal", "CentroidalSystem", include_str!("centroidal.rs")),
         ("MethodsGravityTorques", "GravityTorques", include_str!("centroidal.rs")),
         ("Reactions", "Reactions", include_str!("reactions.rs")),
+        ("Motion", "DrivenSystem", include_str!("driven.rs")),
         ("Taylor", "TaylorSystem", include_str!("series.rs")),
         ("ReactionsBesideContacts", "ContactReactions", include_str!("reactions.rs")),
         ("Constraint", "ConstrainedSystem", include_str!("constraint/mod.rs")),

@@ -21,6 +21,7 @@ pub fn description(derived: &Derived<'_, '_>) -> Description {
         inputs,
         frames: derived.frames().iter().map(|frame| frame.unraw().to_string()).collect(),
         joints: item.wanted.reactions.iter().map(|joint| joint.name.unraw().to_string()).collect(),
+        motions: item.wanted.motions.iter().map(|motion| motion.unraw().to_string()).collect(),
         contacts: derived.subject.contacts(),
         factors: derived.subject.system.halves().map(|halves| halves.first_of_rows()),
         keeps_energy: derived.keeps_energy(),

@@ -60,6 +60,7 @@ fn of_method<'g>(
             let lines = derived.subject.system.contacts.rates.len();
             signature.program(name, &arguments, code, results(count / lines, lines))
         }
+        Method::DrivingForces => signature.program(name, &arguments, code, results(count / 2, 2)),
         Method::Kinematics | Method::ConfigurationRates | Method::PositionCorrection => {
             signature.program(name, &arguments, &with_increment_first(derived, code), results(count, 1))
         }

@@ -8,7 +8,7 @@
 //! | `records` | states and inputs by name |
 //! | `equations` | `GaussSystem`, constraints, contacts, power series |
 //! | `derivatives` | a file for each kind of derivative; `columns`: solved together |
-//! | `quantities` | powers and forces, frames, reactions of joints, the pose of a body, sums over the system |
+//! | `quantities` | powers and forces, frames, reactions of joints, driving forces, the pose of a body, sums over the system |
 //! | `text` | equations and costs as text, LaTeX and rustdoc; the file that a robot was read from, and warnings of what in it has no effect |
 //! | `constructor` | the kernel struct and `kernel()`: parameters read, checked, and turned into constants; `warnings()`; numbers of a robot's file |
 //! | `python` | what another language is to know of the struct: the call of one macro |
@@ -50,7 +50,7 @@ pub use text::file::file;
 use constructor::{file_values, kernel};
 use derivatives::{hessian, inverse, linearized, parametric, regressor};
 use equations::{constrained, contact, gauss_system, taylor};
-use quantities::{forced, framed, reactions, rigid_body, whole};
+use quantities::{driven, forced, framed, reactions, rigid_body, whole};
 use records::{index, input, state};
 use text::description;
 
@@ -74,6 +74,7 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
     let whole = whole::of_the_whole(derived);
     let [frames, framed] = framed::framed_system(derived);
     let [joints, reactions] = reactions::reactions(derived);
+    let [motions, driven] = driven::driven_system(derived);
     let [state, conversions] = state::state(derived);
     let index = index::index(derived);
     let [input, inputs] = input::input(derived);
@@ -86,6 +87,7 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
         #input
         #frames
         #joints
+        #motions
 
         const _: () = {
             #tables
@@ -107,6 +109,7 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
             #regressor
             #framed
             #reactions
+            #driven
             #whole
         };
         #python

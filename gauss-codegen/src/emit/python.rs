@@ -96,6 +96,7 @@ fn offers(derived: &Derived<'_, '_>) -> Vec<proc_macro2::Ident> {
     words.extend(of_methods);
     words.extend((!derived.subject.constraints.is_empty()).then_some("constraints"));
     words.extend((!wanted.reactions.is_empty()).then_some("reactions"));
+    words.extend((!wanted.motions.is_empty()).then_some("motions"));
     words.into_iter().map(|word| format_ident!("{}", word)).collect()
 }
 

@@ -23,7 +23,7 @@ use syn::{DeriveInput, Path};
 
 /// The checked scene; `None` when something is wrong, which is then noted.
 pub fn model(input: &DeriveInput, clauses: Clauses, mut reader: Reader<'_>, context: &mut Context) -> Option<Model> {
-    let Clauses { in_chart, runtime, wanted, mut statements, .. } = clauses;
+    let Clauses { in_chart, runtime, mut wanted, mut statements, .. } = clauses;
     let is_empty = statements.is_empty();
     if in_chart.is_some() {
         statements.bodies.insert(0, body_in_chart());
@@ -56,11 +56,15 @@ pub fn model(input: &DeriveInput, clauses: Clauses, mut reader: Reader<'_>, cont
         None => field_shapes::scalar_without_fields(input, &reader.fields, context)?,
     };
     let fields = fields(&reader, &shapes);
+    let driven = std::mem::take(&mut statements.driven);
+    wanted.motions.clone_from(&driven);
     let model = assembled(input, (runtime, wanted, scalar, in_chart), fields, statements)?;
+    let written = |(name, _): &&(Ident, Expression)| driven.iter().any(|driven| same(driven, name));
+    let motions = definitions.iter().filter(written).cloned().collect();
     let (mut bodies, coordinates) = (model.bodies, model.coordinates);
     // Of what is wrong nothing is asked.
     let limbs = if context.is_clean() { Limbs::found(&mut bodies, &coordinates) } else { Limbs::default() };
-    Some(Model { bodies, coordinates, limbs, definitions, ..model })
+    Some(Model { bodies, coordinates, motions, limbs, definitions, ..model })
 }
 
 /// The body without a name, whose place is given by the chart.
@@ -192,6 +196,7 @@ fn assembled(
         speeds: statements.speeds.map(|speeds| speeds.names),
         kinematics,
         states,
+        motions: Vec::new(),
         bodies: statements.bodies,
         particles: statements.particles,
         points: statements.points,

@@ -23,6 +23,8 @@ pub struct KernelOptions {
     pub frames: Vec<Ident>,
     /// `reactions(…)`: joints whose reactions are methods, each once.
     pub reactions: Vec<ReactionJoint>,
+    /// Coordinates of `motion(…)`, whose driving forces are methods, in the order of the clauses.
+    pub motions: Vec<Ident>,
     /// `python`, where it is written: a class of Python.
     pub python: Option<Ident>,
     /// `methods(…)`: quantities of the system as a whole, each once.

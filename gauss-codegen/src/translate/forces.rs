@@ -518,7 +518,10 @@ impl<'g> Translator<'_, 'g> {
             let label = coordinate.unraw().to_string();
             let value = self.scalar(inertia, tree)?;
             self.note(LawKind::Armature, ("armature", &label), inertia, vec![value]);
-            let rates = match self.coordinate(coordinate)?.1 {
+            let kind = self
+                .motion(coordinate)
+                .map_or_else(|| self.coordinate(coordinate).map(|(_, kind)| kind), |_| Ok(CoordinateKind::Scalar))?;
+            let rates = match kind {
                 CoordinateKind::Scalar => vec![self.rate_of_coordinate(coordinate)?],
                 CoordinateKind::Rotation => self.turning(&label, coordinate)?.to_vec(),
                 CoordinateKind::Pose => {
@@ -553,13 +556,21 @@ impl<'g> Translator<'_, 'g> {
         Ok(Force::OnRate { rate, force })
     }
 
-    /// ψ of a scalar coordinate.
+    /// The function of time that a coordinate is, if it is driven.
+    fn motion(&self, name: &Ident) -> Option<&Expression> {
+        self.model.motions.iter().find(|(own, _)| own == name).map(|(_, motion)| motion)
+    }
+
     pub(super) fn coordinate(&self, name: &Ident) -> Result<(usize, CoordinateKind)> {
         let index = self.model.coordinates.iter().position(|q| q.ident == *name).ok_or_else(|| bug(name.span()))?;
         Ok((index, self.model.coordinates[index].kind))
     }
 
+    /// ψ of a scalar coordinate, or the rate of a motion.
     pub(super) fn rate_of_coordinate(&self, name: &Ident) -> Result<Expr<'g>> {
+        if let Some(motion) = self.motion(name) {
+            return Ok(self.scalar(motion, &self.no_links())?.derivative(&self.rates));
+        }
         let (index, _) = self.coordinate(name)?;
         Ok(self.declared.rate_of(self.declared.before + index, &self.kinematics)[0])
     }

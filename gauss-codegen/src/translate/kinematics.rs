@@ -16,7 +16,7 @@ impl<'g> Translator<'_, 'g> {
         let mut rates = self.chart().map(ChartedBody::coordinate_rates).unwrap_or_default();
         let mut observed = vec![[None; 2]; self.model.coordinates.len()];
         let still = self.declared.states.clone().map(|_| self.graph.zero());
-        let of_let_go = self.let_go.iter().flat_map(|by| by.speeds);
+        let of_let_go = self.let_go.iter().flat_map(|by| by.speeds.iter().copied());
         if self.model.speeds.is_none() {
             let own = &self.declared.speeds[self.speeds_of_chart()..];
             rates.extend(&own[..own.len() - of_let_go.clone().count()]);

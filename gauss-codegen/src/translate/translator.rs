@@ -144,7 +144,7 @@ pub(super) struct Translator<'a, 'g> {
     pub(super) observed: Option<MotionSymbols<'g>>,
     /// The horizontal coordinates over which a height is given, while it is translated.
     pub(super) place: Option<[Expr<'g>; 2]>,
-    /// Coordinates of joints that are let go, while the scene is translated for their reactions.
+    /// Coordinates of joints and motions that are let go, while the scene is translated for their forces.
     pub(super) let_go: Vec<FreedJoint<'g>>,
 }
 
@@ -336,6 +336,9 @@ impl<'a, 'g> Translator<'a, 'g> {
         }
         // Angular velocities are known once the kinematics are.
         self.name_rotations(&vec![self.graph.zero(); self.declared.size()]);
+        for (motion, _) in &self.model.motions {
+            self.names.insert(motion.unraw().to_string(), Value::Scalar(self.away(motion)));
+        }
         let mut inputs = self.declared.inputs.iter().copied();
         for input in &self.model.item.inputs {
             let value = self.input(input.kind, &mut inputs);

@@ -31,6 +31,7 @@ pub use crate::contact::{
     Contact, ContactFrame, ContactSystem, ImpulseDynamics, ImpulseResponse, impulse_terms, impulse_velocities,
 };
 pub use crate::description::{DescribedSystem, Equations, FrameOperations, OperationCount, Operations};
+pub use crate::driven::{DrivenSystem, DrivingForce};
 pub use crate::error::{DragKind, ParameterError, ParameterWarnings};
 pub use crate::forces::{Element, ForcedSystem};
 pub use crate::frames::{ByFrame, FrameMotion, FrameName, FramedSystem, JacobianRates};

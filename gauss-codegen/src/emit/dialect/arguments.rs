@@ -68,7 +68,11 @@ pub fn arguments_of(method: Method) -> &'static [ArgumentKind] {
         | Method::ContactRates => &[Speeds],
         Method::Velocity => &[Momenta],
         Method::MomentumRate => &[Momenta, Inputs],
-        Method::GaussResidual | Method::ConstraintFunction | Method::OtherForces | Method::Reactions => OF_RESIDUAL,
+        Method::GaussResidual
+        | Method::ConstraintFunction
+        | Method::OtherForces
+        | Method::Reactions
+        | Method::DrivingForces => OF_RESIDUAL,
         Method::Speeds => &[Twist],
         Method::PositionCorrection => &[Residuals],
         Method::VelocityCorrection => &[Speeds, Residuals],

@@ -1,6 +1,7 @@
-//! Quantities of a state: powers and forces, frames, reactions of joints, pose and momentum of a body, sums over the
-//! system.
+//! Quantities of a state: powers and forces, frames, reactions of joints, driving forces, pose and momentum of a body,
+//! sums over the system.
 
+pub mod driven;
 pub mod forced;
 pub mod framed;
 pub mod pose;

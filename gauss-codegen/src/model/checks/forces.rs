@@ -16,6 +16,7 @@ pub fn check(statements: &Statements, context: &mut Context) {
     let coordinates = statements.coordinates.iter().flat_map(|names| &names.names);
     let mut kinds = HashMap::new();
     coordinates.for_each(|q| _ = kinds.entry(word(&q.ident)).or_insert(q.kind));
+    statements.driven.iter().for_each(|q| _ = kinds.entry(word(q)).or_insert(CoordinateKind::Scalar));
     let armatures: Vec<&Ident> = statements.armatures.iter().map(|(name, _)| name).collect();
     check_drive(&armatures, ["given an armature twice", ARMATURE], (statements, &kinds), context);
     for clause in &statements.forces {
@@ -112,7 +113,7 @@ fn check_drive(
 /// Every load has an effect, and every input a use. Checked only where all else is well, since the clause that is
 /// missed may be one that could not be read.
 pub fn check_effect(statements: &Statements, context: &mut Context) {
-    let moving = MovingNames::new(statements);
+    let moving = MovingNames::with_driven(statements);
     for clause in &statements.forces {
         if let Some(message) = without_effect(clause, &moving) {
             context.error(clause.span, message);

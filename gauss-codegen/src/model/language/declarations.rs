@@ -46,8 +46,27 @@ pub struct Definition {
     pub name: Ident,
     /// One that could not be read is kept, so that its name is known.
     pub expression: Option<Expression>,
-    /// The name is that of a coordinate that is held at the value, or of its speed.
-    pub locked: bool,
+    pub origin: Origin,
+}
+
+/// Clauses that definitions come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// `define(…)`.
+    Define,
+    /// `lock(…)`: the name is that of a coordinate that is held at the value, or of its speed.
+    Lock,
+    /// `motion(…)`: the name is that of a coordinate that is the value at every time.
+    Motion,
+    /// The name is that of the speed of such a coordinate.
+    Rate,
+}
+
+impl Origin {
+    /// Whether the name was that of a coordinate or a speed.
+    pub fn is_moved(self) -> bool {
+        self != Origin::Define
+    }
 }
 
 const COORDINATES: &Table<CoordinateKind> = &[("Pose", CoordinateKind::Pose), ("Rotation", CoordinateKind::Rotation)];
@@ -366,7 +385,7 @@ pub fn read_definitions(clause: &Clause, context: &mut Context) -> Vec<Definitio
     let (equations, _) = arguments::arguments(group, Owner::Define, context);
     let read = |equation: &Clause, context: &mut Context| {
         let name = arguments::name(&equation.name, "definition", context)?;
-        Some(Definition { name, expression: value(equation, "…", context), locked: false })
+        Some(Definition { name, expression: value(equation, "…", context), origin: Origin::Define })
     };
     equations.iter().filter_map(|equation| read(equation, context)).collect()
 }
@@ -374,11 +393,27 @@ pub fn read_definitions(clause: &Clause, context: &mut Context) -> Vec<Definitio
 /// `lock(elbow = 0.5, finger = opening)`: coordinates, or joints of a file, each with the value that it is held at.
 pub fn read_locks(clause: &Clause, context: &mut Context) -> Vec<Definition> {
     const PLACE: Owner = Owner::Action { word: "lock", example: "a coordinate with its value such as `elbow = 0.5`" };
-    let Some(group) = brackets(clause, "elbow = 0.5", context) else { return Vec::new() };
-    let (arguments, _) = arguments::arguments(group, PLACE, context);
+    held(clause, (Origin::Lock, PLACE), ["elbow = 0.5", "0.5"], context)
+}
+
+/// `motion(crank = w * t)`: coordinates, or joints of a file, each with the function of time that it is.
+pub fn read_motions(clause: &Clause, context: &mut Context) -> Vec<Definition> {
+    const PLACE: Owner =
+        Owner::Action { word: "motion", example: "a coordinate with a function of time such as `crank = w * t`" };
+    held(clause, (Origin::Motion, PLACE), ["crank = w * t", "w * t"], context)
+}
+
+fn held(
+    clause: &Clause,
+    (origin, place): (Origin, Owner),
+    [example, of_value]: [&str; 2],
+    context: &mut Context,
+) -> Vec<Definition> {
+    let Some(group) = brackets(clause, example, context) else { return Vec::new() };
+    let (arguments, _) = arguments::arguments(group, place, context);
     let read = |argument: &Clause, context: &mut Context| {
-        let expression = value(argument, "0.5", context);
-        Definition { name: argument.name.clone(), expression, locked: true }
+        let expression = value(argument, of_value, context);
+        Definition { name: argument.name.clone(), expression, origin }
     };
     arguments.iter().map(|argument| read(argument, context)).collect()
 }

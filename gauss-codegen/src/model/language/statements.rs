@@ -62,10 +62,12 @@ pub struct Statements {
     /// Coordinates with the inertia of their rates.
     pub armatures: Vec<(Ident, Expression)>,
     pub definitions: Vec<Definition>,
-    /// Coordinates that are held, each with its value.
+    /// Coordinates that are held or driven, each with its value.
     pub locks: Vec<Definition>,
     /// Coordinates that joints of a file would have, which are held where it is read.
     pub locked_in_file: Vec<Ident>,
+    /// Coordinates that were driven, in the order of the clauses.
+    pub driven: Vec<Ident>,
     pub attractions: Vec<ForceClause>,
     pub medium: Option<(Ident, Option<Expression>)>,
     /// Mass data of the body without a name, and gravity.
@@ -336,6 +338,14 @@ impl Statements {
                 self.functions.extend(function);
             }
         }
+    }
+
+    /// `motion(x = f)`: the word stands for the motion of a chart as well, `motion = free`.
+    pub fn read_motion(&mut self, clause: &Clause, context: &mut Context) {
+        self.first.get_or_insert_with(|| clause.name.clone());
+        let motions = declarations::read_motions(clause, context);
+        self.note_read(!motions.is_empty(), Statement::Define);
+        self.locks.extend(motions);
     }
 
     /// Bodies, particles, points, what constrains them and what they touch.

@@ -111,7 +111,9 @@ pub fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> 
     let meant = |clause: &Clause| statements::meant(&clause.word()).filter(|_| !own_word(&clause.word()));
     let beside_file = clauses.iter().any(|clause| FILES.iter().any(|(file, _)| *file == clause.word()));
     let own = beside_file || clauses.iter().any(|clause| meant(clause).is_some_and(Statement::makes_system));
-    let of_chart = clauses.iter().find(|clause| ["chart", "motion"].contains(&clause.word().as_str()));
+    let chooses_chart =
+        |clause: &&Clause| clause.word() == "chart" || (clause.word() == "motion" && !is_driving(clause));
+    let of_chart = clauses.iter().find(chooses_chart);
     let of_chart = of_chart.map(|clause| clause.name.clone()).filter(|_| own || has_body);
     let in_chart = of_chart.is_some() || !(own || has_body);
     let has_coordinates = clauses.iter().any(|clause| meant(clause) == Some(Statement::Coordinates));
@@ -120,7 +122,9 @@ pub fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> 
     let mut robot = RobotClauses::default();
     for clause in clauses {
         let word = clause.word();
-        if STATEMENTS.iter().any(|(name, _)| *name == word) {
+        if is_driving(&clause) {
+            statements.read_motion(&clause, context);
+        } else if STATEMENTS.iter().any(|(name, _)| *name == word) {
             statements.read(&clause, context);
         } else if let Some(role) = role_clauses::role(&word).filter(|_| !role_clauses::belongs_to_field(&clause)) {
             role_clauses::read(role, &clause, &mut statements.role_clauses, context);
@@ -148,6 +152,13 @@ pub fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> 
     statements.of_chart = of_chart;
     statements.speeds_of_chart = in_chart.map_or_else(Vec::new, BodyChart::speed_words);
     Clauses { in_chart, runtime: runtime.flatten().unwrap_or_else(default_runtime), wanted, statements, own, robot }
+}
+
+/// Whether a clause is `motion(x = f)`, of coordinates, and not `motion = free`, of a chart.
+fn is_driving(clause: &Clause) -> bool {
+    let Content::Brackets(group) = &clause.value else { return false };
+    let assigns = |token: TokenTree| matches!(token, TokenTree::Punct(punct) if punct.as_char() == '=');
+    clause.word() == "motion" && group.stream().into_iter().any(assigns)
 }
 
 /// Contents of the clauses that stand once; `Some(None)` where one could not be read.

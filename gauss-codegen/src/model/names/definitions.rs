@@ -6,11 +6,11 @@ use super::places::{ExpressionPlace, Holder};
 use super::scope::{Meaning, Scope};
 use super::{expressions, kinds};
 use crate::model::language::context::Context;
-use crate::model::language::declarations::Definition;
+use crate::model::language::declarations::{Definition, Origin};
 use crate::model::language::nesting::{self, LEVELS};
 use crate::model::language::statements::Statements;
-use crate::model::language::words::word;
-use crate::model::scene::expression::{Expression, ExpressionKind};
+use crate::model::language::words::{same, word};
+use crate::model::scene::expression::{BinaryOperator, Expression, ExpressionKind};
 use proc_macro2::{Ident, Span};
 use std::collections::{HashMap, HashSet};
 
@@ -21,10 +21,13 @@ const LIMIT: usize = 100_000;
 /// Checks every definition by itself, in order, and tells the scope what each stands for.
 pub fn check(definitions: &[Definition], scope: &mut Scope, context: &mut Context) {
     refuse_circles(definitions, scope, context);
-    let constant = ExpressionPlace::Constant { word: "value", of: Holder::Lock };
-    for Definition { expression, locked, .. } in definitions {
+    for Definition { expression, origin, .. } in definitions {
         let expression = expression.as_ref();
-        let place = if *locked { constant } else { ExpressionPlace::Definition };
+        let place = match origin {
+            Origin::Define | Origin::Rate => ExpressionPlace::Definition,
+            Origin::Lock => ExpressionPlace::Constant { word: "value", of: Holder::Lock },
+            Origin::Motion => ExpressionPlace::Motion,
+        };
         let well = expression.and_then(|e| kinds::check(e, place, scope, context).and(Some(e)));
         scope.define(well.cloned());
     }
@@ -158,17 +161,29 @@ pub fn unused(statements: &Statements, all: &[&Expression]) -> Vec<Ident> {
     for expression in all.iter().copied().chain(definitions.iter().filter_map(|other| other.expression.as_ref())) {
         expression.put_names(&mut named);
     }
-    let names = definitions.iter().filter(|definition| !definition.locked).map(|definition| &definition.name);
+    let names =
+        definitions.iter().filter(|definition| !definition.origin.is_moved()).map(|definition| &definition.name);
     names.filter(|name| !named.contains(&word(name))).cloned().collect()
 }
 
-/// Puts definitions in the place of their names, everywhere; gives them back, written out, in order.
+/// Puts definitions in the place of their names, everywhere; gives them back, written out, in order. In the place of a
+/// coordinate that is driven stands f(t) and, under its old name, how far it is from there: that is zero, and what is
+/// known of it is how everything would change by it.
 pub fn inline(statements: &mut Statements) -> Vec<(Ident, Expression)> {
     let mut written_out: HashMap<String, Expression> = HashMap::new();
+    // The same with driven coordinates where they are: a motion that names another does not follow it away.
+    let mut given: HashMap<String, Expression> = HashMap::new();
     let mut named = Vec::new();
     for definition in std::mem::take(&mut statements.definitions) {
         let Some(mut expression) = definition.expression else { continue };
-        replace(&mut expression, &written_out);
+        let mut own = expression.clone();
+        replace(&mut own, &given);
+        if statements.driven.iter().any(|driven| same(driven, &definition.name)) {
+            expression = with_distance(own.clone(), &definition.name);
+        } else {
+            replace(&mut expression, &written_out);
+        }
+        given.entry(word(&definition.name)).or_insert(own);
         named.push((definition.name.clone(), expression.clone()));
         written_out.entry(word(&definition.name)).or_insert(expression);
     }
@@ -176,6 +191,13 @@ pub fn inline(statements: &mut Statements) -> Vec<(Ident, Expression)> {
         statements.each_expression(&mut |expression| replace(expression, &written_out));
     }
     named
+}
+
+/// `f + x`.
+fn with_distance(motion: Expression, name: &Ident) -> Expression {
+    let span = motion.span;
+    let away = Expression { kind: ExpressionKind::Name(name.clone()), span };
+    Expression { kind: ExpressionKind::Binary(BinaryOperator::Add, Box::new(motion), Box::new(away)), span }
 }
 
 fn replace(expression: &mut Expression, definitions: &HashMap<String, Expression>) {

@@ -18,7 +18,15 @@ pub struct MovingNames {
 
 impl MovingNames {
     pub fn new(statements: &Statements) -> MovingNames {
-        let mut places: HashSet<String> = HashSet::new();
+        Self::beside(HashSet::new(), statements)
+    }
+
+    /// With driven coordinates, which move, though not as anything acts.
+    pub fn with_driven(statements: &Statements) -> MovingNames {
+        Self::beside(statements.driven.iter().map(word).collect(), statements)
+    }
+
+    fn beside(mut places: HashSet<String>, statements: &Statements) -> MovingNames {
         places.extend(statements.coordinates.iter().flat_map(|names| &names.names).map(|name| word(&name.ident)));
         places.extend(statements.in_chart.then(|| UNNAMED.to_owned()));
         let speeds = statements.speeds.iter().flat_map(|names| &names.names).map(|name| word(&name.ident)).collect();

@@ -114,6 +114,8 @@ pub enum ExpressionPlace {
     Medium,
     /// Center that central gravity attracts to.
     Center,
+    /// The function of time that a coordinate is.
+    Motion,
     /// An expression with a name: what it may contain depends on where the name stands.
     Definition,
 }
@@ -136,6 +138,7 @@ impl ExpressionPlace {
             | ExpressionPlace::Along(_)
             | ExpressionPlace::Constant { .. }
             | ExpressionPlace::Dissipation
+            | ExpressionPlace::Motion
             | ExpressionPlace::Coefficient(_) => kind == ValueKind::Scalar,
             ExpressionPlace::Kinematics(Some(CoordinateKind::Pose)) => kind == ValueKind::Twist,
             ExpressionPlace::Kinematics(Some(CoordinateKind::Rotation))
@@ -279,6 +282,7 @@ impl ExpressionPlace {
             }
             ExpressionPlace::Medium => ("the velocity of the medium is a vector", "write `[cx, cy, cz]`"),
             ExpressionPlace::Center => ("the center of gravity is a vector", "write `[x, y, z]`"),
+            ExpressionPlace::Motion => ("a motion is a scalar", "write one number for every time, such as `w * t`"),
             ExpressionPlace::Definition => ("a definition is a scalar, a vector or a rotation", "write one of them"),
             ExpressionPlace::Dissipation => {
                 ("a dissipation function is a scalar", "write one number, such as `c * v * v / 2`")
@@ -349,7 +353,8 @@ impl ExpressionPlace {
 
     /// Nothing that moves with the system may stand here, but time may.
     fn is_given(self) -> bool {
-        matches!(self, ExpressionPlace::Medium | ExpressionPlace::Center | ExpressionPlace::Height)
+        use ExpressionPlace::{Center, Height, Medium, Motion};
+        matches!(self, Medium | Center | Height | Motion)
     }
 
     /// Speeds may stand here.
@@ -410,6 +415,7 @@ impl ExpressionPlace {
             ExpressionPlace::Coefficient(holder) => return format!("a coefficient of {}", holder.noun()),
             ExpressionPlace::Medium => "the velocity of the medium",
             ExpressionPlace::Center => "a center of gravity",
+            ExpressionPlace::Motion => "a motion",
             ExpressionPlace::Definition => "a definition",
         };
         subject.into()
@@ -426,6 +432,10 @@ impl ExpressionPlace {
             (ExpressionPlace::Medium, _) => format!(
                 "`{name}` moves with the system, and there is no added mass in a stream that varies with the place; write \
                  the velocity of the medium in `t`, fields and numbers, and the drag in any other stream as `force(…)`"
+            ),
+            (ExpressionPlace::Motion, _) => format!(
+                "`{name}` is known only as the system moves, and a motion is given beforehand; write it in `t`, fields and \
+                 numbers, and what holds between coordinates as `constraint(position = …)`"
             ),
             (_, Meaning::State) => format!(
                 "`{name}` is a state of an element, which moves no body and stores no energy that the equations know of; \

@@ -82,6 +82,8 @@ pub struct Robot<'a> {
     /// Coordinates of each joint; none of those that are fixed or follow another.
     pub coordinates: Vec<Vec<CoordinateClause>>,
     pub locked: Vec<LockedJoint>,
+    /// Joints that are driven, by their indices.
+    pub driven: Vec<usize>,
     pub inputs: Vec<RobotInput>,
     pub links: Vec<Ident>,
     /// The mass data of the link are those of a field.
@@ -109,9 +111,11 @@ impl<'a> Robot<'a> {
         let all = || description.joints.iter().enumerate();
         let mut coordinates: Vec<Vec<CoordinateClause>> =
             all().map(|(k, joint)| if own(k) { coordinates(joint, &mut names) } else { Vec::new() }).collect();
-        let locked = locks::found((description, &mut structure), clauses, &mut coordinates, statements, context);
-        let is_held = |drive: &Drive| locks::is_held((description, &structure), &locked, drive);
-        let inputs = drives::inputs((description, &is_held), &coordinates, clauses.inputs, &mut names);
+        let held = locks::found((description, &mut structure), clauses, &mut coordinates, statements, context);
+        let is_held = |drive: &Drive| locks::is_held((description, &structure), &held, drive);
+        let mut free = coordinates.clone();
+        held.driven.iter().for_each(|&joint| free[joint].clear());
+        let inputs = drives::inputs((description, &is_held), &free, clauses.inputs, &mut names);
         let links: Vec<Ident> =
             description.links.iter().map(|link| names.identifier(&link.name, "link", link.at)).collect();
         let plays = |field: &ReadField<'_>, role: Role| field.role.as_ref().is_some_and(|claim| claim.role == role);
@@ -122,7 +126,7 @@ impl<'a> Robot<'a> {
         notes.append(&mut names.notes);
         notes.extend(drives::notes(description, &inputs));
         notes.extend(drives::lost((description, &is_held), &inputs, clauses.inputs));
-        notes.extend(locks::notes((description, &structure), &locked));
+        notes.extend(locks::notes((description, &structure), &held));
         let writer = ExpressionWriter { span: file.span };
         Robot {
             clauses,
@@ -131,7 +135,8 @@ impl<'a> Robot<'a> {
             writer,
             base,
             coordinates,
-            locked,
+            locked: held.locked,
+            driven: held.driven,
             inputs,
             links,
             in_field,

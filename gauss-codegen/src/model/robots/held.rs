@@ -12,6 +12,18 @@ impl Robot<'_> {
         self.locked.iter().find(|lock| lock.joint == leader)
     }
 
+    /// Whether a joint is driven, or the one that it follows.
+    pub fn is_driven(&self, joint: usize) -> bool {
+        self.driven.contains(&self.structure.coupling_of[joint].joint)
+    }
+
+    /// Whether joints are locked or driven, all of them.
+    pub fn is_given(&self, along: &[(String, f64)]) -> bool {
+        let joint = |name: &String| self.description.joints.iter().position(|joint| joint.name == *name);
+        let given = |joint: usize| self.lock_of(joint).is_some() || self.is_driven(joint);
+        !along.is_empty() && along.iter().all(|(name, _)| joint(name).is_some_and(given))
+    }
+
     /// Whether joints are locked, all of them.
     pub fn is_still(&self, along: &[(String, f64)]) -> bool {
         let joint = |name: &String| self.description.joints.iter().position(|joint| joint.name == *name);

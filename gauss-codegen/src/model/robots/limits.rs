@@ -14,7 +14,7 @@ use crate::model::scene::elements::STOP;
 use crate::model::scene::elements::argument::{ALONG, DAMPING, LEAST, MOST, STIFFNESS, WIDTH};
 use crate::model::scene::expression::Expression;
 use crate::model::scene::forces::ForceClause;
-use gauss_robots::description::{At, Note};
+use gauss_robots::description::{At, Joint, Note};
 use gauss_robots::rotation::Rotation;
 
 /// A joint or a tendon with limits.
@@ -34,7 +34,8 @@ impl Robot<'_> {
     fn limited(&self) -> Vec<LimitedMotion> {
         let writer = self.writer;
         let mut limited = Vec::new();
-        for (index, joint, ..) in self.scalar_joints().filter(|(_, joint, ..)| joint.limits != [None; 2]) {
+        let is_limited = |index: usize, joint: &Joint| joint.limits != [None; 2] && !self.is_driven(index);
+        for (index, joint, ..) in self.scalar_joints().filter(|(index, joint, ..)| is_limited(*index, joint)) {
             let own = self.structure.coupling_of[index].joint == index;
             let coordinate = self.coordinates[index].first().filter(|_| own).map(|q| q.ident.clone());
             let along = self.values(index, 0.0).into_iter().next();
@@ -54,7 +55,7 @@ impl Robot<'_> {
             limited.extend(found.map(|(along, limits)| LimitedMotion { at, along, limits, coordinate: None, called }));
         };
         for tendon in &self.description.tendons {
-            let along = self.length(&tendon.along).filter(|_| !self.is_still(&tendon.along));
+            let along = self.length(&tendon.along).filter(|_| !self.is_given(&tendon.along));
             add(tendon.at, along, tendon.limits, named(&tendon.name));
         }
         for cable in &self.description.cables {

@@ -1,10 +1,12 @@
 //! Joints of a file that are locked: held at a number they are as good as fixed, so that the mass data of links are
-//! added; held at a parameter they are turned or moved by it.
+//! added; held at a parameter they are turned or moved by it. Joints that are driven by `motion(…)` are written as all
+//! others are, but for inputs and limits of theirs.
 
 use proc_macro2::Ident;
 use syn::ext::IdentExt;
 
 use crate::model::language::context::Context;
+use crate::model::language::declarations::Origin;
 use crate::model::language::robots::{Limits, RobotClauses};
 use crate::model::language::statements::Statements;
 use crate::model::language::words::word;
@@ -23,21 +25,37 @@ pub struct LockedJoint {
     pub number: Option<f64>,
 }
 
+/// Joints that are held or driven.
+#[derive(Default)]
+pub struct HeldJoints {
+    pub locked: Vec<LockedJoint>,
+    /// Their indices.
+    pub driven: Vec<usize>,
+}
+
+impl HeldJoints {
+    /// Whether a joint moves by nothing that is left to find.
+    fn holds(&self, joint: usize) -> bool {
+        self.driven.contains(&joint) || self.locked.iter().any(|lock| lock.joint == joint)
+    }
+}
+
 /// A number, if the expression is one: literals, and multiples of π.
 fn number(value: &Expression) -> Option<f64> {
     value.literal().or_else(|| Some(value.turns_of_pi()?.to_f64() * std::f64::consts::PI))
 }
 
-/// Finds the joints with one coordinate that are locked, and takes their coordinates away. Locks of other names stay
-/// with the statements, and so do those at parameters, by the names of coordinates.
+/// Finds the joints with one coordinate that are locked, and takes their coordinates away; of those that are driven they
+/// stay. Clauses of other names stay with the statements, and so do those at parameters and motions, by the names of
+/// coordinates.
 pub fn found(
     (description, structure): (&Description, &mut Structure),
     clauses: &RobotClauses,
     coordinates: &mut [Vec<CoordinateClause>],
     statements: &mut Statements,
     context: &mut Context,
-) -> Vec<LockedJoint> {
-    let mut locked: Vec<LockedJoint> = Vec::new();
+) -> HeldJoints {
+    let HeldJoints { mut locked, mut driven } = HeldJoints::default();
     let mut left = Vec::new();
     for mut lock in std::mem::take(&mut statements.locks) {
         let is_called = |joint: usize| {
@@ -54,8 +72,15 @@ pub fn found(
             left.push(lock);
             continue;
         }
-        if let Some(reason) = refusal(joint, &coordinates[index]) {
+        let motion = lock.origin == Origin::Motion;
+        if let Some(reason) = refusal(joint, &coordinates[index], motion) {
             context.error(lock.name.span(), format!("`{}` {reason}", lock.name));
+            continue;
+        }
+        if motion && let Some(q) = coordinates[index].first() {
+            lock.name = Ident::new(&q.ident.to_string(), lock.name.span());
+            driven.push(index);
+            left.push(lock);
             continue;
         }
         let ident = coordinates[index][0].ident.clone();
@@ -79,14 +104,25 @@ pub fn found(
     statements.locks = left;
     hold((description, structure), &locked);
     locked.iter().for_each(|lock| coordinates[lock.joint].clear());
-    locked
+    HeldJoints { locked, driven }
 }
 
-/// The reason why a joint cannot be locked.
-fn refusal(joint: &Joint, own: &[CoordinateClause]) -> Option<String> {
+/// The reason why a joint cannot be locked, or driven.
+fn refusal(joint: &Joint, own: &[CoordinateClause], motion: bool) -> Option<String> {
     let names = || own.iter().map(|q| format!("`{}`", q.ident)).collect::<Vec<_>>().join(", ");
     Some(match (joint.kind, &joint.mimic) {
+        (JointKind::Fixed, _) if motion => "is a fixed joint, and moves by nothing".to_owned(),
         (JointKind::Fixed, _) => "is a fixed joint: it is held without a lock".to_owned(),
+        (JointKind::Turning | JointKind::Sliding, Some(mimic)) if motion => {
+            format!("follows the joint `{0}`, and stands where that one is; drive `{0}`", mimic.joint)
+        }
+        (JointKind::Planar, _) if motion => format!("moves by three coordinates; drive those of {}", names()),
+        (JointKind::Ball, _) if motion => {
+            "is a rotation, and a motion is one number; make the joint of the file three hinges".to_owned()
+        }
+        (JointKind::Floating, _) if motion => {
+            "is a pose, and a motion is one number; make the joint of the file slides and hinges".to_owned()
+        }
         (JointKind::Turning | JointKind::Sliding, Some(mimic)) => {
             format!("follows the joint `{0}`, and stands where that one is; lock `{0}`", mimic.joint)
         }
@@ -140,17 +176,17 @@ fn hold((description, structure): (&Description, &mut Structure), locked: &[Lock
     structure.hold(description, &held);
 }
 
-/// Whether a drive acts on locked joints alone.
-pub fn is_held((description, structure): (&Description, &Structure), locked: &[LockedJoint], drive: &Drive) -> bool {
+/// Whether a drive acts on joints alone that are locked or driven by a motion.
+pub fn is_held((description, structure): (&Description, &Structure), joints: &HeldJoints, drive: &Drive) -> bool {
     let held = |name: &String| {
         let joint = description.joints.iter().position(|joint| joint.name == *name);
-        joint.is_some_and(|joint| locked.iter().any(|lock| lock.joint == structure.coupling_of[joint].joint))
+        joint.is_some_and(|joint| joints.holds(structure.coupling_of[joint].joint))
     };
     !drive.along.is_empty() && drive.along.iter().all(|(name, _)| held(name))
 }
 
-/// Remarks on locked joints, and on drives that have nothing to move.
-pub fn notes((description, structure): (&Description, &Structure), locked: &[LockedJoint]) -> Vec<Note> {
+/// Remarks on joints that are locked or driven, and on drives that have nothing to move.
+pub fn notes((description, structure): (&Description, &Structure), joints: &HeldJoints) -> Vec<Note> {
     let of_joint = |lock: &LockedJoint| {
         let joint = &description.joints[lock.joint];
         let text = format!(
@@ -160,11 +196,23 @@ pub fn notes((description, structure): (&Description, &Structure), locked: &[Loc
         );
         Note::told(joint.at, text)
     };
+    let of_motion = |&joint: &usize| {
+        let joint = &description.joints[joint];
+        let text = format!(
+            "the joint `{}` is driven by `motion`: it has no coordinate, no speed and no input, and its limits are left \
+             out; its springs, damping, friction and armature are part of its driving force",
+            joint.name
+        );
+        Note::told(joint.at, text)
+    };
     let of_drive = |drive: &Drive| {
-        let text = format!("`{}` drives locked joints alone, and has no input", drive.name);
+        let held =
+            if joints.driven.is_empty() { "locked joints" } else { "joints that are locked or driven by `motion`" };
+        let text = format!("`{}` drives {held} alone, and has no input", drive.name);
         let word = if description.only_driven { "actuator" } else { "transmission" };
         Note::ignored(drive.at, word, text)
     };
-    let drives = description.drives.iter().filter(|drive| is_held((description, structure), locked, drive));
-    locked.iter().map(of_joint).chain(drives.map(of_drive)).collect()
+    let drives = description.drives.iter().filter(|drive| is_held((description, structure), joints, drive));
+    let of_joints = joints.locked.iter().map(of_joint).chain(joints.driven.iter().map(of_motion));
+    of_joints.chain(drives.map(of_drive)).collect()
 }

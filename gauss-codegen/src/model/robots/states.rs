@@ -29,7 +29,8 @@ impl Robot<'_> {
         let free = super::names::free(&posture.name, "state", |word| !taken.iter().any(|known| known == word));
         taken.push(free.clone());
         let mut values: Vec<(Ident, ValueOfState)> = Vec::new();
-        for (joint, own) in self.description.joints.iter().zip(&self.coordinates) {
+        let joints = self.description.joints.iter().zip(&self.coordinates).enumerate();
+        for (_, (joint, own)) in joints.filter(|(index, _)| !self.driven.contains(index)) {
             let find =
                 |all: &[(String, Vec<f64>)]| all.iter().find(|(name, _)| *name == joint.name).map(|(_, v)| v.clone());
             let [q] = own.as_slice() else { continue };

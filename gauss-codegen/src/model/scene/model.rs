@@ -32,6 +32,9 @@ pub struct Model {
     pub kinematics: Vec<(Ident, Expression)>,
     /// States of elements, in order: components of the configuration behind all others, with rates of their own.
     pub states: Vec<ElementState>,
+    /// Coordinates that are driven, in the order of the clauses: the function of time that each is, and its name for
+    /// how far it is from there, which is zero.
+    pub motions: Vec<(Ident, Expression)>,
     /// The bodies and frames, in the order in which they are written: a parent may come after its child.
     pub bodies: Vec<BodyClause>,
     /// The particles of (3.3).
