@@ -213,6 +213,8 @@ fn not_bouncing(derivation: &Derivation) -> Option<&'static str> {
         Some("they have no gaps")
     } else if !derivation.description().joints.is_empty() {
         Some("`reactions(…)` does not know the forces of contacts")
+    } else if !derivation.description().motions.is_empty() {
+        Some("the driving forces of `motion(…)` do not know the forces of contacts")
     } else if !by_columns {
         Some("the equations of a tree as long as this are formed link by link, which the events of an FMU do not use")
     } else {

@@ -94,6 +94,11 @@ pub fn outputs(derivation: &Derivation) -> Vec<OutputGroup<'_>> {
         own.chain(triple(joint, "torque", "N m", &torque)).collect::<Vec<_>>()
     });
     add("reactions_at", reactions.collect());
+    let driving = derivation.description().motions.iter().flat_map(|motion| {
+        let force = (format!("{motion}.driving_force"), "1", format!("Force that drives `{motion}`"));
+        [force, (format!("{motion}.driving_power"), "W", format!("Power that drives `{motion}`"))]
+    });
+    add("driving_forces_at", driving.collect());
     let gaps = derivation.description().contacts.iter();
     let gap = |name: &str| (format!("{name}.gap"), "1", format!("Gap of `{name}`"));
     add("gaps", gaps.map(|contact| gap(&contact.name)).collect());

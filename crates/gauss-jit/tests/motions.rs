@@ -180,8 +180,8 @@ fn driven_joints_of_robots() {
     let arm: &[&str] = &["gravity = 9.81"];
     let legs: &[&str] = &["gravity = 9.81", "base = floating", "limits = none", "saturation = none"];
     let hand: &[&str] = &["gravity = 9.81", "joint_friction = smooth(0.01)", "limits = none", "saturation = none"];
-    let servos: &[&str] = &["gravity = 9.81", "inputs = actuators", "saturation = clamp", "limits = none"];
-    let linkage: &[&str] = &["inputs = actuators", "saturation = none", "limits = none"];
+    let servos: &[&str] = &["gravity = 9.81", "inputs = none", "limits = none"];
+    let linkage: &[&str] = &["inputs = none", "limits = none"];
     let robots: [(&str, &[&str], &str); 7] = [
         ("panda.urdf", arm, "panda_joint2"),
         ("panda.urdf", arm, "panda_finger_joint1"),
@@ -240,4 +240,335 @@ fn beside_inverse_dynamics(what: &str, (full, driven): (&Model, &Model), joint: 
         let [force, _] = driving_forces_at(&own, t, [&q, &z, &other, &u])[..] else { panic!("a force") };
         assert!((force - rest[row]).abs() <= size, "{what}: {force} {rest:?}");
     }
+}
+
+/// An arm of two links on a slide, with more `clauses`.
+fn leg(coordinates: &str, clauses: &str) -> String {
+    format!(
+        "#[gauss(coordinates({coordinates}), gravity = 9.81, {clauses},
+           body(thigh, position = [slide, 0, 0.1 * slide], rotation = rotation_y(hip), mass = m, inertia = [3, 4, 5],
+                center_of_mass = [0.1, 0, -l]),
+           body(shank, parent = thigh, position = [0, 0.1, -l], rotation = rotation_y(knee) * rotation_x(0.2 * knee),
+                mass = 2, center_of_mass = [0, 0.1, -0.2], inertia = [1, 2, 2.5]))]
+         struct Leg {{ m: f64, l: f64 }}"
+    )
+}
+
+const OF_LEG: [(&str, &[f64]); 2] = [("m", &[3.0]), ("l", &[0.4])];
+
+/// What `method` of two models gives at the same states, argument by argument at random.
+fn same(what: &str, [a, b]: [&Kernel; 2], method: &str, terms: f64) {
+    let [own, other] = [a, b].map(|kernel| kernel.method(method).unwrap_or_else(|error| panic!("{what}: {error}")));
+    assert_eq!(own.outputs(), other.outputs(), "{what} {method}");
+    let mut random = Random(23);
+    for _ in 0..4 {
+        let lists: Vec<Vec<f64>> = own.arguments().iter().map(|own| random.list(own.components.len())).collect();
+        let lists: Vec<&[f64]> = lists.iter().map(Vec::as_slice).collect();
+        let [found, expected] = [&own, &other].map(|method| {
+            let mut results = vec![0.0; method.outputs()];
+            method.call(&lists, &mut results).unwrap();
+            results
+        });
+        let size = terms * f64::EPSILON * (1.0 + largest(&expected));
+        let well = found.iter().zip(&expected).all(|(found, expected)| (found - expected).abs() <= size);
+        assert!(well, "{what} {method}: {found:?} {expected:?}");
+    }
+}
+
+/// Two at once, in the order of the clauses, one of which names the other: the scene with the functions in their places,
+/// in all methods and derivatives.
+#[test]
+fn a_motion_is_the_function_in_its_place() {
+    let wanted = "linearize(parameters, inverse, hessian), taylor, frames(shank), methods(gravity_torques)";
+    let driven = leg(
+        "slide, hip, knee",
+        &format!("{wanted}, define(u = 0.3 * t), motion(hip = sin(u) + slide, slide = m * t * t)"),
+    );
+    let by_hand = leg("knee", &format!("{wanted}, define(slide = m * t * t, hip = sin(0.3 * t) + slide)"));
+    let [driven, by_hand] = [driven, by_hand].map(|source| model(&source));
+    let kernels = [&driven, &by_hand].map(|model| kernel(model, &OF_LEG));
+    assert_eq!(driven.description().motions, ["hip", "slide"]);
+    let methods: Vec<&str> = driven.methods().filter(|method| *method != "driving_forces_at").collect();
+    assert_eq!(methods, by_hand.methods().collect::<Vec<_>>());
+    // Of second derivatives there are some thousand products.
+    methods.iter().for_each(|method| same("two", [&kernels[0], &kernels[1]], method, 2e4));
+    // Which products are fused is as it falls.
+    let operations = |model: &Model| -> Vec<(String, [u32; 3])> {
+        let of = |(name, count): (&str, gauss_codegen::program::Counts)| {
+            (name.to_owned(), [count.additions + count.multiplications, count.divisions, count.transcendentals])
+        };
+        model.operations().map(of).collect()
+    };
+    let mut own = operations(&driven);
+    own.retain(|(name, _)| name != "driving_forces_at");
+    assert_eq!(own, operations(&by_hand), "a scene pays for the forces alone");
+}
+
+/// The force along one of two is that with the other where it is, as inverse dynamics of the whole has it.
+#[test]
+fn two_motions_of_which_one_names_the_other() {
+    let driven = model(&leg("slide, hip, knee", "motion(slide = 0.4 * t * t, hip = 0.3 * sin(t) + slide)"));
+    let full = model(&leg("slide, hip, knee", "limit = 50000"));
+    let (own, all) = (kernel(&driven, &OF_LEG), kernel(&full, &OF_LEG));
+    let mut random = Random(9);
+    for _ in 0..4 {
+        let [t, q, z] = [0, 1, 2].map(|_| random.next());
+        let a = own.acceleration(t, &[q], &[z], &[]).unwrap()[0];
+        let slide = [0.4 * t * t, 0.8 * t, 0.8];
+        let hip = [0.3 * t.sin() + slide[0], 0.3 * t.cos() + slide[1], -0.3 * t.sin() + slide[2]];
+        let rest = all
+            .inverse_dynamics(t, &[slide[0], hip[0], q], &[slide[1], hip[1], z], &[slide[2], hip[2], a], &[])
+            .unwrap();
+        let found = driving_forces(&own, t, [&[q], &[z], &[]]);
+        // Some two hundred products of numbers up to fifty.
+        let size = 200.0 * f64::EPSILON * 50.0 * (1.0 + a.abs());
+        assert!((found[0] - rest[0]).abs() <= size && (found[2] - rest[1]).abs() <= size, "{found:?} {rest:?}");
+        assert!(rest[2].abs() <= size, "{rest:?}");
+        let powers = [found[1] - found[0] * slide[1], found[3] - found[2] * hip[1]];
+        assert!(largest(&powers) <= size, "{found:?}");
+    }
+}
+
+/// The energy gains what the drives give, with the power of all else that is no potential.
+#[test]
+fn energy_comes_from_the_drives() {
+    let clauses = "motion(slide = 0.4 * sin(2 * t), hip = t * t), input(push, bend), drive(slide = push, knee = bend), \
+                   spring(tendon, along = knee - hip + slide, stiffness = 30, damping = 2), armature(hip = 0.3), \
+                   friction(rail, along = slide, viscous = 0.2), potential = 4 * hip * hip * slide";
+    let model = model(&leg("slide, hip, knee", clauses));
+    let own = kernel(&model, &OF_LEG);
+    let mut random = Random(17);
+    for _ in 0..6 {
+        let [t, q, z] = [0, 1, 2].map(|_| random.next());
+        let u = random.list(2);
+        let found = driving_forces(&own, t, [&[q], &[z], &u]);
+        let supplied = own.call("supplied_power", &[&[t], &[q], &[z], &u]).unwrap()[0];
+        let [slide, hip] = [0.8 * (2.0 * t).cos(), 2.0 * t];
+        let stretch = z - hip + slide;
+        let others = [u[0] * slide + u[1] * z, -2.0 * stretch * stretch, -0.2 * slide * slide];
+        let powers = [found[1], found[3]].into_iter().chain(others);
+        // Some three hundred products of powers and of what they are made of.
+        let size = 300.0 * f64::EPSILON * powers.clone().fold(100.0, |sum, power| sum + power.abs());
+        assert!((supplied - powers.sum::<f64>()).abs() <= size, "{found:?} {others:?} {supplied}");
+        // The rate of the energy itself, by differences of a step of 1e-5: their error is its square, times third
+        // derivatives of some hundred, and roundings of the energy over the step.
+        let a = own.acceleration(t, &[q], &[z], &u).unwrap()[0];
+        let step = 1e-5;
+        let energy = |h: f64| {
+            let (t, q, z) = (t + h, q + h * z + 0.5 * h * h * a, z + h * a);
+            own.kinetic_energy(t, &[q], &[z]).unwrap() + own.potential_energy(t, &[q]).unwrap()
+        };
+        let rate = (energy(step) - energy(-step)) / (2.0 * step);
+        let bound = 1e3 * step * step + 100.0 * f64::EPSILON * energy(0.0).abs().max(1.0) / step;
+        assert!((rate - supplied).abs() <= bound, "{rate} {supplied} {bound:e}");
+    }
+}
+
+/// Of dry friction along a motion the drive overcomes the bound, and at rest it is told without it; a scene whose only
+/// dry friction it was has no contacts left.
+#[test]
+fn dry_friction_along_a_motion() {
+    let with = |clauses: &str| model(&crane(&format!("motion(x = a * sin(w * t)){clauses}")));
+    let [smooth, dry] = ["", ", dry_friction(x, bound = 1.5 * m)"].map(with);
+    assert!(dry.contacts().is_empty());
+    let [smooth, dry] = [&smooth, &dry].map(|model| kernel(model, &NUMBERS));
+    for (t, sign) in [(0.1, 1.0), (-1.1, -1.0), (1.2, -1.0), (0.0, 1.0)] {
+        let [free, rubbed] = [&smooth, &dry].map(|kernel| driving_forces(kernel, t, [&[0.3], &[1.2], &[]])[0]);
+        assert!((rubbed - free - sign * 1.5 * 0.7).abs() <= 1e-13, "{rubbed} {free}");
+    }
+    let held = |clauses: &str| kernel(&model(&crane(&format!("motion(x = a){clauses}"))), &NUMBERS);
+    let [free, rubbed] = ["", ", dry_friction(x, bound = m)"]
+        .map(|clauses| driving_forces(&held(clauses), 0.3, [&[0.3], &[1.2], &[]])[0]);
+    assert_eq!(free, rubbed);
+}
+
+/// Held at a field it is a lock, with the force that holds.
+#[test]
+fn a_motion_that_rests_is_a_lock() {
+    let [motion, lock] = ["motion(knee = l)", "lock(knee = l)"].map(|clause| model(&leg("slide, hip, knee", clause)));
+    let kernels = [&motion, &lock].map(|model| kernel(model, &OF_LEG));
+    for method in ["acceleration", "mass_matrix", "kinetic_energy", "potential_energy", "gauss_residual"] {
+        same("rest", [&kernels[0], &kernels[1]], method, 500.0);
+    }
+    assert!(!lock.methods().any(|name| name == "driving_forces_at"));
+    let found = driving_forces(&kernels[0], 0.0, [&[0.1, 0.2], &[0.3, 0.4], &[]]);
+    assert!(found[0].abs() > 0.1 && found[1] == 0.0, "{found:?}");
+}
+
+/// Speeds of one's own: that of a driven coordinate is the rate of its motion, wherever it stands.
+#[test]
+fn speeds_of_ones_own() {
+    let clauses = "speeds(v, w, u), kinematics(slide = v, hip = w, knee = u), drive(knee = -2 * v * w)";
+    let driven = model(&leg("slide, hip, knee", &format!("{clauses}, motion(slide = sin(3 * t))")));
+    let by_hand =
+        "speeds(w, u), kinematics(hip = w, knee = u), drive(knee = -6 * cos(3 * t) * w), define(slide = sin(3 * t))";
+    let by_hand = model(&leg("hip, knee", by_hand));
+    let kernels = [&driven, &by_hand].map(|model| kernel(model, &OF_LEG));
+    for method in ["acceleration", "gauss_residual", "kinetic_energy", "momentum_rate"] {
+        same("speeds", [&kernels[0], &kernels[1]], method, 1000.0);
+    }
+}
+
+/// Under constraints that are left: a crank turns a slider-crank, whose torque is that of the power balance.
+#[test]
+fn a_crank_of_a_slider() {
+    let slider = "#[gauss(coordinates(crank, rod, x), motion(crank = w * t),
+        body(wheel, rotation = rotation_z(crank), mass = 1, inertia = [1, 1, 1]),
+        body(bar, parent = wheel, position = [r, 0, 0], rotation = rotation_z(rod), mass = 0, inertia = 0),
+        body(piston, position = [x, 0, 0], mass = m, inertia = 1),
+        point(pin, body = bar, at = [l, 0, 0]),
+        constraint(position = pin.y), constraint(position = pin.x - x))] struct Slider { r: f64, l: f64, m: f64, w: f64 }";
+    let (r, l, m, w) = (0.2, 0.5, 3.0, 4.0);
+    let values: [(&str, &[f64]); 4] = [("r", &[r]), ("l", &[l]), ("m", &[m]), ("w", &[w])];
+    let slider = slider.replace("mass = 0, inertia = 0", "mass = 0.001, inertia = 0.0001");
+    let own = kernel(&model(&slider), &values);
+    for t in [0.1, 0.35, 0.9, 1.3] {
+        let (sine, cosine) = f64::sin_cos(w * t);
+        // l sin(crank + rod) = −r sin(crank).
+        let lean = (-r * sine / l).asin();
+        let lean_rate = -r * w * cosine / (l * lean.cos());
+        let lean_force = (r * w * w * sine + l * lean_rate * lean_rate * lean.sin()) / (l * lean.cos());
+        let x = r * cosine + l * lean.cos();
+        let v = -r * w * sine - l * lean_rate * lean.sin();
+        let a = -r * w * w * cosine - l * lean_force * lean.sin() - l * lean_rate * lean_rate * lean.cos();
+        let found = driving_forces(&own, t, [&[lean - w * t, x], &[lean_rate - w, v], &[]]);
+        let by_power = m * a * v / w;
+        // A bar of a thousandth of the mass takes some thousandths of the torque.
+        assert!((found[0] - by_power).abs() <= 1e-2 * m * r * r * w * w, "{found:?} {by_power}");
+    }
+}
+
+/// In rows, to the bits that each state gets alone.
+#[test]
+fn in_lanes() {
+    let own = kernel(&model(&crane("motion(x = a * sin(w * t)), spring(along = x, stiffness = 3)")), &NUMBERS);
+    let method = own.method("driving_forces_at").unwrap();
+    let mut random = Random(1);
+    let rows = 37;
+    let lists: Vec<Vec<f64>> = method.arguments().iter().map(|own| random.list(rows * own.components.len())).collect();
+    let lists: Vec<&[f64]> = lists.iter().map(Vec::as_slice).collect();
+    let mut together = vec![0.0; 2 * rows];
+    method.call_rows(rows, &lists, &mut together).unwrap();
+    for row in 0..rows {
+        let counts = method.arguments().iter().map(|own| own.components.len());
+        let own: Vec<&[f64]> = lists.iter().zip(counts).map(|(list, n)| &list[row * n..row * n + n]).collect();
+        let mut alone = [0.0; 2];
+        method.call(&own, &mut alone).unwrap();
+        assert_eq!(alone, together[2 * row..2 * row + 2]);
+    }
+}
+
+/// A table of time, twice smooth, is a function as any other; a polygon is none.
+#[test]
+fn tables_of_time() {
+    let clauses = |kind: &str| format!("table(way, points = WAY, kind = {kind}), motion(x = way(t))");
+    let points = [("WAY", &[4, 2][..], &[-2.0, 0.3, -0.5, 1.0, 0.7, -0.4, 2.0, 0.1][..])];
+    let table = model(&crane(&clauses("cubic"))).with_tables(&points).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let whole = "table(way, points = WAY, kind = cubic), constraint(position = x - way(t))";
+    let whole = model(&crane(whole)).with_tables(&points).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let (own, all) = (kernel(&table, &NUMBERS), kernel(&whole, &NUMBERS));
+    for t in [-1.1, 0.2, 1.3] {
+        let found = driving_forces(&own, t, [&[0.4], &[0.6], &[]])[0];
+        // The multiplier depends on x and its rate by nothing: the trolley has neither weight along it nor loads.
+        let multiplier = all.call("multipliers", &[&[t], &[0.0, 0.4], &[0.0, 0.6], &[]]).unwrap()[0];
+        assert!((found - multiplier).abs() <= 1500.0 * f64::EPSILON * (1.0 + found.abs()), "{found} {multiplier}");
+    }
+    refused(&crane(&clauses("linear")), &[("way(t)", "is differentiated")]);
+}
+
+/// All mistakes of a scene: each at the last place of its token on the first line, with a part of its message.
+fn refused(source: &str, expected: &[(&str, &str)]) {
+    let mistakes = match Model::from_source(source) {
+        Ok(_) => panic!("accepted: {source}"),
+        Err(mistakes) => mistakes,
+    };
+    assert_eq!(mistakes.as_slice().len(), expected.len(), "{source}: {mistakes}");
+    for (mistake, (token, text)) in mistakes.as_slice().iter().zip(expected) {
+        let gauss_jit::Place::Text { line, column } = mistake.place else { panic!("{mistake}") };
+        let at: String = source.lines().nth(line - 1).unwrap_or_default().chars().skip(column - 1).collect();
+        assert!(at.starts_with(token), "{mistake} at {at}");
+        assert!(mistake.message.contains(text), "{mistake}");
+    }
+}
+
+#[test]
+fn mistakes_are_told_where_they_are() {
+    let scene = |clauses: &str| leg("slide, hip, knee", clauses);
+    let cases: [(&str, &[(&str, &str)]); 18] = [
+        (
+            "motion(knee = 2 * hip)",
+            &[(
+                "hip",
+                "a motion is given beforehand; write it in `t`, fields and numbers, and what \
+            holds between coordinates as `constraint(position = …)`",
+            )],
+        ),
+        ("motion(knee = rate(hip))", &[("rate(hip)", "is a velocity")]),
+        ("input(u), drive(hip = u), motion(knee = u)", &[("u)", "a motion is given beforehand")]),
+        ("motion(knee = thigh.position.x)", &[("thigh", "a motion is given beforehand")]),
+        ("motion(nee = t)", &[("nee", "`nee` is no coordinate, and a motion drives one; did you mean `knee`?")]),
+        ("motion(knee = t, knee = 2 * t)", &[("knee = 2", "driven twice; keep one of the two")]),
+        ("motion(knee = t), lock(knee = 2)", &[("knee = 2", "both locked and driven; keep one of the two")]),
+        ("lock(knee = 2), motion(knee = t)", &[("knee = t", "both locked and driven; keep one of the two")]),
+        ("motion(knee = [t, 0, 0])", &[("[t", "a motion is a scalar, found a vector")]),
+        ("motion(knee = abs(t))", &[("abs", "a motion is differentiated")]),
+        ("motion(knee = u), define(u = 2 * knee)", &[("knee)", "name each other")]),
+        ("motion(knee = t, hip = t, slide = t)", &[("knee", "all coordinates are driven or locked")]),
+        ("motion(knee)", &[("knee", "knee")]),
+        ("motion()", &[("(", "")]),
+        (
+            "motion(knee = t), range(knee, from = 0, to = 1)",
+            &[("knee, from", "`knee` is driven, so that no limit keeps it")],
+        ),
+        ("motion(knee = t), constraint(position = knee - 0.3)", &[("constraint", "names nothing that moves")]),
+        (
+            "motion(knee = t), dry_friction(rub, slip = rate(knee), bound = 2)",
+            &[("rate", "the slip contains no velocity")],
+        ),
+        (
+            "speeds(v, w, u), kinematics(slide = v, hip = w, knee = u + v), motion(slide = t)",
+            &[("knee = u", "the rate of `knee` depends on `v`, which the motion of `slide` determines")],
+        ),
+    ];
+    for (clauses, expected) in cases {
+        refused(&scene(clauses), expected);
+    }
+    let groups = "#[gauss(coordinates(base: Pose, turn: Rotation, s), motion(base = t, turn = t),
+        body(a, pose = base, mass = 1, inertia = 1),
+        body(b, parent = a, position = [s, 0, 0], rotation = turn, mass = 1, inertia = 1))] struct B {}";
+    refused(
+        groups,
+        &[
+            (
+                "base = t",
+                "is a pose, and a motion is one number; write the `position` and `rotation` of its body as functions",
+            ),
+            ("turn = t", "is a rotation, and a motion is one number"),
+        ],
+    );
+}
+
+#[test]
+fn joints_that_cannot_be_driven() {
+    let of = |clauses: &[&str]| match Model::from_urdf(robot("gripper.urdf"), clauses) {
+        Ok(_) => panic!("accepted: {clauses:?}"),
+        Err(mistakes) => mistakes.to_string(),
+    };
+    assert!(
+        of(&["motion(right = t)"]).contains("follows the joint `left`, and stands where that one is; drive `left`")
+    );
+    assert!(of(&["motion(elbw = t)"]).contains("did you mean `elbow`?"), "{}", of(&["motion(elbw = t)"]));
+    assert!(of(&["motion(elbow = t)", "lock(elbow = 1)"]).contains("both locked and driven"));
+}
+
+/// Limits and the input of a driven joint are left out, whatever is said of them; remarks say so.
+#[test]
+fn limits_of_driven_joints_are_left_out() {
+    let with = ["limits = range", "joint_friction = dry", "gravity = 9.81", "motion(elbow = sin(2 * t))"];
+    let model = Model::from_urdf(robot("gripper.urdf"), &with).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let contacts: Vec<&str> = model.contacts().iter().map(|contact| contact.name).collect();
+    assert!(!contacts.is_empty() && !contacts.iter().any(|name| name.starts_with("elbow")), "{contacts:?}");
+    assert!(!names(&model.description().inputs).iter().any(|name| name == "elbow"));
+    let told = "the joint `elbow` is driven by `motion`: it has no coordinate, no speed and no input";
+    assert!(model.remarks().iter().any(|remark| remark.contains(told)), "{:?}", model.remarks());
 }

@@ -258,6 +258,12 @@ impl Kernel {
         self.scene().joints().to_vec()
     }
 
+    /// The names of the driven coordinates, in the order of `driving_forces`.
+    #[getter]
+    fn motions(&self) -> Vec<&'static str> {
+        self.scene().motions().to_vec()
+    }
+
     /// Number of speeds.
     #[getter]
     fn dof(&self) -> usize {

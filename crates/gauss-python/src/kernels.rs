@@ -36,6 +36,8 @@ pub trait AnyScene: Send + Sync {
     fn frames(&self) -> &[&'static str];
     /// Joints whose reactions are methods.
     fn joints(&self) -> &[&'static str];
+    /// Driven coordinates.
+    fn motions(&self) -> &[&'static str];
     /// Names of the numbers of parameters that there are derivatives by; none without the clause for them.
     fn parameters(&self) -> &[&'static str];
     /// Contacts, ranges and dry joints, of which runs have the forces.
@@ -153,7 +155,7 @@ impl<S: Scene> Registered<S> {
     pub fn new() -> Self {
         let (mut single, mut packed, mut steps) = (Table::new(), Table::new(), Methods::new());
         S::offer(&mut single, &mut packed, &mut steps);
-        let sizes = Sizes::of::<S::Single>(single.multipliers, single.parameters.len());
+        let sizes = Sizes::of::<S::Single>([single.multipliers, single.motions.len()], single.parameters.len());
         let description = S::description();
         let blocks = description.unit_blocks().collect();
         Self { single, packed, steps, description, sizes, blocks }
@@ -198,6 +200,10 @@ impl<S: Scene> AnyScene for Registered<S> {
 
     fn joints(&self) -> &[&'static str] {
         &self.single.joints
+    }
+
+    fn motions(&self) -> &[&'static str] {
+        &self.single.motions
     }
 
     fn parameters(&self) -> &[&'static str] {

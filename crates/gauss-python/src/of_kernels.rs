@@ -72,6 +72,7 @@ methods! {
     centroidal_matrix CentroidalMatrix (q) [Some(q), None, None, None];
     center_jacobian CenterJacobian (q) [Some(q), None, None, None];
     reaction Reaction ([joint] q, z; input) [Some(q), Some(z), None, input];
+    driving_forces DrivingForces (q, z; input) [Some(q), Some(z), None, input];
     tangent Tangent (q, change) [Some(q), None, Some(change), None];
     by_parameters ByParameters (q, z; input) [Some(q), Some(z), None, input];
 }

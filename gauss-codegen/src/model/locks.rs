@@ -7,6 +7,7 @@ use crate::model::language::context::Context;
 use crate::model::language::declarations::{Definition, Names, Origin};
 use crate::model::language::statements::Statements;
 use crate::model::language::words::{self, same, word};
+use crate::model::names::moving_names::MovingNames;
 use crate::model::scene::clauses::{CoordinateClause, CoordinateKind, SpeedKind};
 use crate::model::scene::contacts::ContactGeometry;
 use crate::model::scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName};
@@ -56,6 +57,7 @@ pub fn apply(statements: &mut Statements, context: &mut Context) {
         definitions.extend(speed);
     }
     put_before(definitions, &mut statements.definitions);
+    leave_out_contacts(statements);
     let left = statements
         .coordinates
         .as_ref()
@@ -71,6 +73,18 @@ pub fn apply(statements: &mut Statements, context: &mut Context) {
         };
         context.error(span, message);
     }
+}
+
+/// Leaves contacts of a file out whose parts only driven joints move: nothing that is left to find has a part in them.
+fn leave_out_contacts(statements: &mut Statements) {
+    if statements.driven.is_empty() {
+        return;
+    }
+    let moving = MovingNames::new(statements);
+    statements.contacts.retain(|contact| match &contact.touching {
+        ContactGeometry::Point(point) if contact.of_file => point.places().any(|place| moving.in_place(place)),
+        _ => true,
+    });
 }
 
 /// Puts definitions before others, but behind those that they name.
@@ -240,6 +254,16 @@ fn speed(lock: &Definition, statements: &mut Statements, context: &mut Context) 
         return None;
     };
     let speed = speeds.names.remove(own).ident;
+    let names_it = |(_, other): &&(Ident, Option<Expression>)| {
+        origin == Origin::Motion && other.as_ref().is_some_and(|other| other.names(&word(&speed)))
+    };
+    for (other, _) in rates.iter().filter(names_it) {
+        let message = format!(
+            "the rate of `{other}` depends on `{speed}`, which the motion of `{name}` determines; write it in the other \
+             speeds, or `constraint(velocity = …)` in place of the motion"
+        );
+        context.error(other.span(), message);
+    }
     if let Some(independent) = &mut statements.independent {
         independent.names.retain(|part| {
             let is_it = same(&part.ident, &speed);

@@ -50,6 +50,10 @@ impl AnyScene for LoadedScene {
         &self.joints
     }
 
+    fn motions(&self) -> &[&'static str] {
+        &self.motions
+    }
+
     fn parameters(&self) -> &[&'static str] {
         &self.parameters
     }

@@ -17,6 +17,8 @@ enum Plan {
     Nonlinear,
     /// All joints by one program at the acceleration: the joint is six numbers of them.
     Reaction,
+    /// All motions by one program at the acceleration.
+    DrivingForces,
     /// Both energies.
     Energy,
     /// The first rows of the centroidal matrix over the mass.
@@ -67,6 +69,7 @@ fn plan(model: &Model, id: Id, frames: &[&'static str], joints: &[&'static str])
         Id::Regularity if !has("regularity") => return Some(Plan::Regular),
         Id::NonlinearEffects if !has("nonlinear_effects") => return Some(Plan::Nonlinear),
         Id::Reaction => return (!joints.is_empty() && has("reactions_at")).then_some(Plan::Reaction),
+        Id::DrivingForces => return has("driving_forces_at").then_some(Plan::DrivingForces),
         _ => {}
     }
     let programs: Vec<String> = match (id, spec.frame) {
@@ -161,6 +164,10 @@ fn compute(
             for (six, all) in results.chunks_exact_mut(6).zip(all.chunks_exact(all.len() / rows)) {
                 six.copy_from_slice(&all[6 * frame..6 * frame + 6]);
             }
+        }
+        Plan::DrivingForces => {
+            let acceleration = called(kernel, "acceleration", rows, &[t, q, z, u])?;
+            kernel.method("driving_forces_at")?.call_rows(rows, &[t, q, z, &acceleration, u], results)?;
         }
         Plan::Energy => {
             kernel.method("kinetic_energy")?.call_rows(rows, &[t, q, z], results)?;

@@ -15,6 +15,7 @@ pub struct LoadedScene {
     pub(super) names: [Vec<&'static str>; 2],
     pub(super) frames: Vec<&'static str>,
     pub(super) joints: Vec<&'static str>,
+    pub(super) motions: Vec<&'static str>,
     pub(super) parameters: Vec<&'static str>,
     pub(super) plans: Plans,
 }
@@ -64,7 +65,7 @@ impl LoadedScene {
         let (scalars, groups): (Vec<Quantity>, Vec<Quantity>) =
             own.coordinates.iter().cloned().partition(|own| own.numbers.len() == 1);
         let names = [numbers(&[groups, scalars].concat()), numbers(&own.speeds)];
-        let (frames, joints) = (all(&own.frames), all(&own.joints));
+        let (frames, joints, motions) = (all(&own.frames), all(&own.joints), all(&own.motions));
         let has_parameters = model.methods().any(|name| name == "by_parameters");
         let parameters = if has_parameters { all(model.parameter_names()) } else { Vec::new() };
         let count = |method: &str| {
@@ -77,10 +78,11 @@ impl LoadedScene {
             speeds: names[1].len(),
             input: description.input_size(),
             multipliers: count("multipliers"),
+            motions: motions.len(),
             parameters: parameters.len(),
         };
         let plans = Plans::of(&model, &frames, &joints);
-        Self { model, description, sizes, names, frames, joints, parameters, plans }
+        Self { model, description, sizes, names, frames, joints, motions, parameters, plans }
     }
 
     /// The kernel with these numbers of all fields.

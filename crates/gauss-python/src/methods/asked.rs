@@ -142,6 +142,22 @@ impl<S: System> Table<S> {
         });
     }
 
+    /// Driving forces of motions.
+    pub fn motions(&mut self)
+    where
+        S: DrivenSystem,
+    {
+        self.motions = S::Motion::ALL.iter().map(|motion| motion.name()).collect();
+        self.add(Id::DrivingForces, |s, at, out| {
+            let (t, q, z, input) = (at.t(), at.q(), at.z(), at.input());
+            let all = s.driving_forces_at(t, &q, &z, &called::acceleration(s, t, &q, &z, &input), &input);
+            out.matrix([S::Motion::ALL.len(), 2], |i, j| {
+                let own = all[S::Motion::ALL[i]];
+                if j == 0 { own.force } else { own.power }
+            });
+        });
+    }
+
     /// Rates of Jacobians.
     pub fn jacobian_rates(&mut self)
     where

@@ -24,6 +24,8 @@ pub struct Sizes {
     pub input: usize,
     /// Multipliers; 0 without constraints.
     pub multipliers: usize,
+    /// Driven coordinates.
+    pub motions: usize,
     /// Numbers of parameters that there are derivatives by; 0 without the clause for them.
     pub parameters: usize,
 }
@@ -31,13 +33,14 @@ pub struct Sizes {
 impl Sizes {
     /// The sizes of a system.
     #[must_use]
-    pub fn of<S: System>(multipliers: usize, parameters: usize) -> Self {
+    pub fn of<S: System>([multipliers, motions]: [usize; 2], parameters: usize) -> Self {
         Self {
             configuration: <<S::Configuration as Configuration>::Components as VectorSpace<S::Scalar>>::DIM,
             increment: <<S::Configuration as Configuration>::Tangent as VectorSpace<S::Scalar>>::DIM,
             speeds: S::DOF,
             input: <S::Input as VectorSpace<S::Scalar>>::DIM,
             multipliers,
+            motions,
             parameters,
         }
     }
@@ -53,6 +56,7 @@ impl Sizes {
             Size::State => self.increment + self.speeds,
             Size::Flat => self.configuration + self.speeds,
             Size::Multipliers => self.multipliers,
+            Size::Motions => self.motions,
             Size::Parameters => self.parameters,
             Size::Exactly(count) => count,
         }
@@ -272,14 +276,16 @@ pub struct Table<S> {
     pub frames: Vec<&'static str>,
     /// The names of the joints whose reactions are methods.
     pub joints: Vec<&'static str>,
+    /// The names of the driven coordinates.
+    pub motions: Vec<&'static str>,
 }
 
 impl<S: System> Table<S> {
     /// The table of the methods that every kernel has.
     #[must_use]
     pub fn new() -> Self {
-        let (loops, frames, joints) = (std::array::from_fn(|_| None), Vec::new(), Vec::new());
-        let mut table = Self { loops, multipliers: 0, parameters: &[], frames, joints };
+        let (loops, frames, joints, motions) = (std::array::from_fn(|_| None), Vec::new(), Vec::new(), Vec::new());
+        let mut table = Self { loops, multipliers: 0, parameters: &[], frames, joints, motions };
         table.motion();
         table.energies();
         table

@@ -34,6 +34,7 @@ pub enum Id {
     CentroidalMatrix,
     CenterJacobian,
     Reaction,
+    DrivingForces,
     Tangent,
     ByParameters,
 }
@@ -71,6 +72,7 @@ impl Id {
         Self::CentroidalMatrix,
         Self::CenterJacobian,
         Self::Reaction,
+        Self::DrivingForces,
         Self::Tangent,
         Self::ByParameters,
     ];
@@ -109,6 +111,8 @@ pub enum Size {
     Flat,
     /// Multipliers.
     Multipliers,
+    /// Driven coordinates.
+    Motions,
     /// Numbers of parameters that there are derivatives by.
     Parameters,
     /// So many.
@@ -307,6 +311,13 @@ pub const SPECS: [Spec; 32] = [
         )
         .by("reactions(…)")
     },
+    spec(
+        "driving_forces",
+        &[Q, Z, U],
+        &[one(&[Size::Motions, Size::Exactly(2)])],
+        "Force and power that drive each coordinate of `motions`.",
+    )
+    .by("motion(…)"),
     spec(
         "tangent",
         &[Q, CHANGE],

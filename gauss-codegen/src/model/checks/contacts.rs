@@ -96,7 +96,7 @@ fn check_point(
         Copies::Ends(end) => Some(end),
         _ => None,
     };
-    if ![Some(&contact.point), other, end].into_iter().flatten().any(|point| moving.in_place(point)) {
+    if !contact.places().any(|point| moving.in_place(point)) {
         context.error(
             contact.point.span,
             "the point does not move, so it never touches; name a coordinate, or a body or point that moves",

@@ -157,8 +157,8 @@ pub fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> 
 /// Whether a clause is `motion(x = f)`, of coordinates, and not `motion = free`, of a chart.
 fn is_driving(clause: &Clause) -> bool {
     let Content::Brackets(group) = &clause.value else { return false };
-    let assigns = |token: TokenTree| matches!(token, TokenTree::Punct(punct) if punct.as_char() == '=');
-    clause.word() == "motion" && group.stream().into_iter().any(assigns)
+    let inner = attributes::written(&attributes::flat(group.stream()));
+    clause.word() == "motion" && !MOTIONS.iter().any(|(motion, _)| *motion == inner)
 }
 
 /// Contents of the clauses that stand once; `Some(None)` where one could not be read.

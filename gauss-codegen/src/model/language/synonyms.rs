@@ -70,8 +70,10 @@ const GEAR: &str = "a gear is one coordinate for both: `rotation = rotation_z(n 
                     it is `armature(angle = a)`";
 const ROTOR: &str = "a wheel is a body that a coordinate turns: `coordinates(angle), body(wheel, parent = hull, \
                      rotation = rotation_z(angle), mass = m, inertia = [a, a, c])`";
-const LOCK: &str = "a coordinate that never moves is left out by `lock(angle = a)`; with the force that holds it, it is held by \
-                    `constraint(position = angle - a)`";
+const LOCK: &str = "a coordinate that never moves is left out by `lock(angle = a)`; with the force that holds it, it is \
+                    `motion(angle = a)`";
+const MOTION: &str =
+    "a coordinate that is a function of time is `motion(angle = w * t)`, with the force that drives it";
 const MODES: &str = "a body that bends has modes: `body(panel, parent = hull), modes(panel, coordinates = [a, b], \
                      file = \"panel.json\")`";
 const ENERGY: &str = "the kinetic energy follows from bodies and particles; a potential is `potential = …`";
@@ -213,6 +215,10 @@ pub const FOR_CLAUSES: &Table<&'static str> = &[
     ("limits", RANGE),
     ("locked", LOCK),
     ("freeze", LOCK),
+    ("prescribed", MOTION),
+    ("prescribe", MOTION),
+    ("prescribed_motion", MOTION),
+    ("rheonomic", MOTION),
     ("joint_limits", RANGE),
     ("bumper", RANGE),
     ("gear", GEAR),

@@ -265,6 +265,7 @@ impl<'a> Robot<'a> {
             .chain(of_struct.iter().map(|(q, _)| q))
             .collect();
         let is_geared = |link: usize| match self.structure.joint_of[link] {
+            Some(joint) if self.is_driven(joint) => true,
             Some(joint) => {
                 self.coordinates[self.structure.coupling_of[joint].joint].iter().all(|q| geared.contains(&q.ident))
             }

@@ -147,6 +147,19 @@ pub enum Counterpart {
 }
 
 impl PointContact {
+    /// Points that it is between.
+    pub fn places(&self) -> impl Iterator<Item = &Expression> {
+        let other = match &self.against {
+            Counterpart::Sphere { center, .. } => Some(center),
+            Counterpart::Plane { .. } | Counterpart::Ground(_) => None,
+        };
+        let end = match &self.copies {
+            Copies::Ends(end) => Some(end),
+            _ => None,
+        };
+        std::iter::once(&self.point).chain(other).chain(end)
+    }
+
     /// Its points, lengths, radii and heights.
     pub fn lengths(&self) -> Vec<&Expression> {
         let of_rim = self.rim.iter().map(|[radius, _]| radius);

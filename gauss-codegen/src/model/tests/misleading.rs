@@ -26,7 +26,7 @@ fn what_is_held() {
         let word = clause.split('(').next().unwrap();
         let held = format!(
             "unknown clause `{word}`; a coordinate that never moves is left out by `lock(angle = a)`; with the force that \
-             holds it, it is held by `constraint(position = angle - a)`"
+             holds it, it is `motion(angle = a)`"
         );
         only(&arm(clause), &held);
     }

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::dimensions::{Dimensions, InferredDimension, UnitChecker};
 use super::need::{ADDED_MASS, ANGULAR_VELOCITY, ENERGY, FORCE, LENGTH, MASS, Need, POWER, TORQUE, VELOCITY};
 use crate::model::language::context::Context;
+use crate::model::language::declarations::Origin;
 use crate::model::language::fields::ReadField;
 use crate::model::language::statements::Statements;
 use crate::model::language::units::{self, Dimension, read};
@@ -51,9 +52,13 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
         checker.add(&point.name, Dimensions::of(LENGTH.1));
     }
     for definition in &statements.definitions {
+        // Numbers of a motion are in whatever unit makes it right, as `sin(2 * t)`.
+        let driven = definition.origin == Origin::Motion;
+        checker.number = if driven { InferredDimension::Unknown } else { InferredDimension::Number };
         let value = definition.expression.as_ref().map_or(Dimensions::UNKNOWN, |expression| checker.value(expression));
         checker.add(&definition.name, value);
     }
+    checker.number = InferredDimension::Number;
     checker.places(statements);
     let number = |of_file: bool| if of_file { InferredDimension::Unknown } else { InferredDimension::Number };
     for (index, clause) in statements.forces.iter().enumerate() {
