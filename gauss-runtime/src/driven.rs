@@ -26,8 +26,8 @@ pub struct DrivingForce<T> {
 /// The force is beyond all else that acts on the coordinate: weight and inertia, that of an armature among them,
 /// springs, dampers, friction and motors `along` it are part of the balance, so that
 /// `force = inertia − weight − springs − friction − motors`, the row of inverse dynamics of the scene in which the
-/// coordinate is free. Of dry friction along it, a bound f, the drive overcomes `f signum(ẋ)`; at an instant at which it
-/// rests the force is known only within ±f, and told without it.
+/// coordinate is free. Of dry friction along it, a bound f, the drive overcomes `f signum(ẋ)`; at an instant at which
+/// it rests the force is known only within ±f, and told without it.
 #[cfg_attr(
     feature = "derive",
     doc = r##"

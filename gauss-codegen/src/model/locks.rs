@@ -1,6 +1,6 @@
 //! Coordinates that are held, `lock(elbow = 0.5)`, or driven, `motion(crank = w * t)`: the value becomes the definition
-//! of the name, and the coordinate is gone before anything is derived. Joints of files with one coordinate are held where
-//! the file is read. What acts on a driven coordinate stays, since it is part of the force that drives it.
+//! of the name, and the coordinate is gone before anything is derived. Joints of files with one coordinate are held
+//! where the file is read. What acts on a driven coordinate stays, since it is part of the force that drives it.
 
 use crate::algebra::Rational;
 use crate::model::language::context::Context;
@@ -254,16 +254,6 @@ fn speed(lock: &Definition, statements: &mut Statements, context: &mut Context) 
         return None;
     };
     let speed = speeds.names.remove(own).ident;
-    let names_it = |(_, other): &&(Ident, Option<Expression>)| {
-        origin == Origin::Motion && other.as_ref().is_some_and(|other| other.names(&word(&speed)))
-    };
-    for (other, _) in rates.iter().filter(names_it) {
-        let message = format!(
-            "the rate of `{other}` depends on `{speed}`, which the motion of `{name}` determines; write it in the other \
-             speeds, or `constraint(velocity = …)` in place of the motion"
-        );
-        context.error(other.span(), message);
-    }
     if let Some(independent) = &mut statements.independent {
         independent.names.retain(|part| {
             let is_it = same(&part.ident, &speed);

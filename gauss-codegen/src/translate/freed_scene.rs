@@ -15,7 +15,7 @@ use super::notes::Notes;
 use super::translator::Translator;
 
 impl<'g> Translator<'_, 'g> {
-    /// The scene with the joints let go whose reactions are wanted, then driven coordinates; `None` where there are none.
+    /// The scene with the joints let go whose reactions are wanted, then driven coordinates; `None` without any.
     pub(super) fn let_go(&self) -> Result<Option<FreedScene<'g>>> {
         let graph = self.graph;
         let joints = self.model.item.wanted.reactions.iter();

@@ -1,5 +1,5 @@
-//! Driven coordinates of compiled structs: forces by the names of motions, runs with their energy, lanes, other scalars.
-//! `crates/gauss-jit/tests/motions.rs` has the equations and what is refused.
+//! Driven coordinates of compiled structs: forces by the names of motions, runs with their energy, lanes, other
+//! scalars. `crates/gauss-jit/tests/motions` has the equations and what is refused.
 
 use gauss_runtime::constraint::ConstrainedSystem;
 use gauss_runtime::frames::FrameName;
@@ -146,7 +146,7 @@ fn derivatives_at_a_state() {
         let column = (rate(k, step) - rate(k, -step)) / (2.0 * step);
         for i in 0..2 {
             // The square of the step times third derivatives of some thousand.
-            let found = linear.by_state(2 + i, k);
+            let found = linear.by_state[(2 + i, k)];
             assert!((found - column[i]).abs() < 1e-6, "{i} {k}: {found} {}", column[i]);
         }
     }

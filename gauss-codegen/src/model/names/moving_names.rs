@@ -21,7 +21,7 @@ impl MovingNames {
         Self::beside(HashSet::new(), statements)
     }
 
-    /// With driven coordinates, which move, though not as anything acts.
+    /// The same with driven coordinates, which move, though not as anything acts.
     pub fn with_driven(statements: &Statements) -> MovingNames {
         Self::beside(statements.driven.iter().map(word).collect(), statements)
     }

@@ -45,9 +45,9 @@ fn number(value: &Expression) -> Option<f64> {
     value.literal().or_else(|| Some(value.turns_of_pi()?.to_f64() * std::f64::consts::PI))
 }
 
-/// Finds the joints with one coordinate that are locked, and takes their coordinates away; of those that are driven they
-/// stay. Clauses of other names stay with the statements, and so do those at parameters and motions, by the names of
-/// coordinates.
+/// Finds the joints with one coordinate that are locked, and takes their coordinates away; of those that are driven
+/// they stay. Clauses of other names stay with the statements, and so do those at parameters and motions, by the names
+/// of coordinates.
 pub fn found(
     (description, structure): (&Description, &mut Structure),
     clauses: &RobotClauses,

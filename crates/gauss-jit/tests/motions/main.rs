@@ -1,6 +1,8 @@
 //! Coordinates that are driven, `motion(x = f(t))`, read at run time: beside known equations, beside the same motion
 //! under a constraint with its multiplier, and beside inverse dynamics of the whole.
 
+mod mistakes;
+
 use std::path::PathBuf;
 
 use gauss_jit::{Kernel, Model};
@@ -173,8 +175,8 @@ fn whole(long: &[String], short: &[String], values: &[f64], driven: (&str, f64))
     long.iter().map(|name| of(name).unwrap_or(if name == driven.0 { driven.1 } else { 0.0 })).collect()
 }
 
-/// A driven joint of a robot: its torque is the row of inverse dynamics of the whole at the same q, q̇, q̈, with no input
-/// there, and rows that are free have no force left.
+/// A driven joint of a robot: its torque is the row of inverse dynamics of the whole at the same q, q̇, q̈, with no
+/// input there, and rows that are free have no force left.
 #[test]
 fn driven_joints_of_robots() {
     let arm: &[&str] = &["gravity = 9.81"];
@@ -275,8 +277,8 @@ fn same(what: &str, [a, b]: [&Kernel; 2], method: &str, terms: f64) {
     }
 }
 
-/// Two at once, in the order of the clauses, one of which names the other: the scene with the functions in their places,
-/// in all methods and derivatives.
+/// Two at once, in the order of the clauses, one of which names the other: the scene with the functions in their
+/// places, in all methods and derivatives.
 #[test]
 fn a_motion_is_the_function_in_its_place() {
     let wanted = "linearize(parameters, inverse, hessian), taylor, frames(shank), methods(gravity_torques)";
@@ -438,6 +440,94 @@ fn a_crank_of_a_slider() {
     }
 }
 
+/// Beside a body in a chart, whose `motion = …` is another clause: the function in its place, and the multiplier.
+#[test]
+fn beside_a_chart() {
+    for chart in ["left_invariant", "hybrid", "jet(euler_zyx)"] {
+        let scene = |coordinates: &str, clauses: &str| {
+            let source = format!(
+                "#[gauss(motion = free, chart = {chart}, mass = 2, inertia = [1, 2, 2.5], gravity = [0, 0.3, -9.81],
+                   {coordinates}body(wheel, parent = body, position = [0, 0.1, 0.3], rotation = rotation_x(turn), mass = m,
+                   center_of_mass = [0, l, 0], inertia_about_center_of_mass = [0.2, 0.1, 0.2]), {clauses})]
+                 struct Wheel {{ m: f64, l: f64 }}"
+            );
+            kernel(&model(&source), &OF_LEG)
+        };
+        let driven = scene("coordinates(turn), ", "motion(turn = sin(2 * t))");
+        let by_hand = scene("", "define(turn = sin(2 * t))");
+        let whole = scene("coordinates(turn), ", "constraint(position = turn - sin(2 * t))");
+        for method in ["acceleration", "gauss_residual", "momentum", "kinetic_energy", "supplied_power"] {
+            same(chart, [&driven, &by_hand], method, 5000.0);
+        }
+        let mut random = Random(31);
+        for _ in 0..3 {
+            let t = random.next();
+            let q = place(driven.model(), &mut random);
+            let z = random.list(6);
+            let [q_all, z_all] = [(&q, (2.0 * t).sin()), (&z, 2.0 * (2.0 * t).cos())]
+                .map(|(list, value)| list.iter().copied().chain([value]).collect::<Vec<_>>());
+            let multiplier = whole.call("multipliers", &[&[t], &q_all, &z_all, &[]]).unwrap()[0];
+            let found = driving_forces(&driven, t, [&q, &z, &[]])[0];
+            // A 7 × 7 matrix of condition below some hundreds, and Euler angles away from their singular place.
+            assert!((found - multiplier).abs() <= 1e5 * f64::EPSILON * (1.0 + found.abs()), "{found} {multiplier}");
+        }
+    }
+}
+
+/// Beside constraints that are solved for speeds, and beside reactions: along the way of a trolley its rail bears
+/// nothing but the drive.
+#[test]
+fn beside_constraints_and_reactions() {
+    let speeds =
+        "speeds(v, w, u), kinematics(slide = v, hip = w, knee = u), constraint(velocity = u - 0.5 * w - 0.2 * t)";
+    let with = |clauses: &str| {
+        kernel(&model(&leg("slide, hip, knee", &format!("{speeds}, motion(slide = sin(t)){clauses}"))), &OF_LEG)
+    };
+    let [multipliers, solved] = ["", ", independent(w)"].map(with);
+    for t in [-0.4, 0.3, 0.8] {
+        let (q, w) = ([0.4, -0.7], 1.3);
+        let all = driving_forces(&multipliers, t, [&q, &[w, 0.5 * w + 0.2 * t], &[]]);
+        let own = driving_forces(&solved, t, [&q, &[w], &[]]);
+        // Some hundred products of forces up to fifty, the multiplier of a matrix of condition below thirty.
+        let size = 3000.0 * f64::EPSILON * 50.0;
+        assert!(own.iter().zip(&all).all(|(own, all)| (own - all).abs() <= size), "{own:?} {all:?}");
+    }
+    let crane = kernel(&model(&crane("motion(x = a * sin(w * t)), reactions(trolley)")), &NUMBERS);
+    let (t, q, z) = (0.3, [0.8], [-1.2]);
+    let a = crane.acceleration(t, &q, &z, &[]).unwrap();
+    let reaction = crane.call("reactions_at", &[&[t], &q, &z, &a, &[]]).unwrap();
+    let force = driving_forces(&crane, t, [&q, &z, &[]])[0];
+    assert_eq!(reaction.len(), 6);
+    assert!((reaction[0] - force).abs() <= 1e-13 && force.abs() > 0.1, "{reaction:?} {force}");
+}
+
+/// A ball above a table that shakes: gaps and their rates know of the motion, and the friction of the table's guide is no
+/// contact.
+#[test]
+fn beside_contacts() {
+    let scene = |coordinates: &str, clauses: &str| {
+        let source = format!(
+            "#[gauss(coordinates({coordinates}), gravity = 9.81, body(table, position = [0, 0, h], mass = 5, inertia = 1),
+               body(ball, position = [x, 0, z], mass = m, inertia = 1),
+               contact(hit, gap = z - h - l, slip = rate(x) - 0.1 * rate(h), friction = 0.3, restitution = 0.4), {clauses})]
+             struct Table {{ m: f64, l: f64 }}"
+        );
+        kernel(&model(&source), &OF_LEG)
+    };
+    let driven = scene("h, x, z", "motion(h = 0.1 * sin(9 * t)), dry_friction(h, bound = 2)");
+    let by_hand = scene("x, z", "define(h = 0.1 * sin(9 * t))");
+    let methods: Vec<String> = by_hand.model().methods().map(str::to_owned).collect();
+    assert!(methods.iter().any(|method| method == "impulse_dynamics"));
+    for method in methods.iter().filter(|method| !["powers", "element_forces"].contains(&method.as_str())) {
+        same("contacts", [&driven, &by_hand], method, 3000.0);
+    }
+    // Without contact forces: the weight and the inertia of the table, and the bound.
+    let t = 0.1;
+    let found = driving_forces(&driven, t, [&[0.0, 2.0], &[0.0, 0.0], &[]])[0];
+    let expected = 5.0 * (9.81 - 8.1 * f64::sin(0.9)) + 2.0;
+    assert!((found - expected).abs() <= 1e-13 * 50.0, "{found} {expected}");
+}
+
 /// In rows, to the bits that each state gets alone.
 #[test]
 fn in_lanes() {
@@ -473,102 +563,5 @@ fn tables_of_time() {
         let multiplier = all.call("multipliers", &[&[t], &[0.0, 0.4], &[0.0, 0.6], &[]]).unwrap()[0];
         assert!((found - multiplier).abs() <= 1500.0 * f64::EPSILON * (1.0 + found.abs()), "{found} {multiplier}");
     }
-    refused(&crane(&clauses("linear")), &[("way(t)", "is differentiated")]);
-}
-
-/// All mistakes of a scene: each at the last place of its token on the first line, with a part of its message.
-fn refused(source: &str, expected: &[(&str, &str)]) {
-    let mistakes = match Model::from_source(source) {
-        Ok(_) => panic!("accepted: {source}"),
-        Err(mistakes) => mistakes,
-    };
-    assert_eq!(mistakes.as_slice().len(), expected.len(), "{source}: {mistakes}");
-    for (mistake, (token, text)) in mistakes.as_slice().iter().zip(expected) {
-        let gauss_jit::Place::Text { line, column } = mistake.place else { panic!("{mistake}") };
-        let at: String = source.lines().nth(line - 1).unwrap_or_default().chars().skip(column - 1).collect();
-        assert!(at.starts_with(token), "{mistake} at {at}");
-        assert!(mistake.message.contains(text), "{mistake}");
-    }
-}
-
-#[test]
-fn mistakes_are_told_where_they_are() {
-    let scene = |clauses: &str| leg("slide, hip, knee", clauses);
-    let cases: [(&str, &[(&str, &str)]); 18] = [
-        (
-            "motion(knee = 2 * hip)",
-            &[(
-                "hip",
-                "a motion is given beforehand; write it in `t`, fields and numbers, and what \
-            holds between coordinates as `constraint(position = …)`",
-            )],
-        ),
-        ("motion(knee = rate(hip))", &[("rate(hip)", "is a velocity")]),
-        ("input(u), drive(hip = u), motion(knee = u)", &[("u)", "a motion is given beforehand")]),
-        ("motion(knee = thigh.position.x)", &[("thigh", "a motion is given beforehand")]),
-        ("motion(nee = t)", &[("nee", "`nee` is no coordinate, and a motion drives one; did you mean `knee`?")]),
-        ("motion(knee = t, knee = 2 * t)", &[("knee = 2", "driven twice; keep one of the two")]),
-        ("motion(knee = t), lock(knee = 2)", &[("knee = 2", "both locked and driven; keep one of the two")]),
-        ("lock(knee = 2), motion(knee = t)", &[("knee = t", "both locked and driven; keep one of the two")]),
-        ("motion(knee = [t, 0, 0])", &[("[t", "a motion is a scalar, found a vector")]),
-        ("motion(knee = abs(t))", &[("abs", "a motion is differentiated")]),
-        ("motion(knee = u), define(u = 2 * knee)", &[("knee)", "name each other")]),
-        ("motion(knee = t, hip = t, slide = t)", &[("knee", "all coordinates are driven or locked")]),
-        ("motion(knee)", &[("knee", "knee")]),
-        ("motion()", &[("(", "")]),
-        (
-            "motion(knee = t), range(knee, from = 0, to = 1)",
-            &[("knee, from", "`knee` is driven, so that no limit keeps it")],
-        ),
-        ("motion(knee = t), constraint(position = knee - 0.3)", &[("constraint", "names nothing that moves")]),
-        (
-            "motion(knee = t), dry_friction(rub, slip = rate(knee), bound = 2)",
-            &[("rate", "the slip contains no velocity")],
-        ),
-        (
-            "speeds(v, w, u), kinematics(slide = v, hip = w, knee = u + v), motion(slide = t)",
-            &[("knee = u", "the rate of `knee` depends on `v`, which the motion of `slide` determines")],
-        ),
-    ];
-    for (clauses, expected) in cases {
-        refused(&scene(clauses), expected);
-    }
-    let groups = "#[gauss(coordinates(base: Pose, turn: Rotation, s), motion(base = t, turn = t),
-        body(a, pose = base, mass = 1, inertia = 1),
-        body(b, parent = a, position = [s, 0, 0], rotation = turn, mass = 1, inertia = 1))] struct B {}";
-    refused(
-        groups,
-        &[
-            (
-                "base = t",
-                "is a pose, and a motion is one number; write the `position` and `rotation` of its body as functions",
-            ),
-            ("turn = t", "is a rotation, and a motion is one number"),
-        ],
-    );
-}
-
-#[test]
-fn joints_that_cannot_be_driven() {
-    let of = |clauses: &[&str]| match Model::from_urdf(robot("gripper.urdf"), clauses) {
-        Ok(_) => panic!("accepted: {clauses:?}"),
-        Err(mistakes) => mistakes.to_string(),
-    };
-    assert!(
-        of(&["motion(right = t)"]).contains("follows the joint `left`, and stands where that one is; drive `left`")
-    );
-    assert!(of(&["motion(elbw = t)"]).contains("did you mean `elbow`?"), "{}", of(&["motion(elbw = t)"]));
-    assert!(of(&["motion(elbow = t)", "lock(elbow = 1)"]).contains("both locked and driven"));
-}
-
-/// Limits and the input of a driven joint are left out, whatever is said of them; remarks say so.
-#[test]
-fn limits_of_driven_joints_are_left_out() {
-    let with = ["limits = range", "joint_friction = dry", "gravity = 9.81", "motion(elbow = sin(2 * t))"];
-    let model = Model::from_urdf(robot("gripper.urdf"), &with).unwrap_or_else(|mistakes| panic!("{mistakes}"));
-    let contacts: Vec<&str> = model.contacts().iter().map(|contact| contact.name).collect();
-    assert!(!contacts.is_empty() && !contacts.iter().any(|name| name.starts_with("elbow")), "{contacts:?}");
-    assert!(!names(&model.description().inputs).iter().any(|name| name == "elbow"));
-    let told = "the joint `elbow` is driven by `motion`: it has no coordinate, no speed and no input";
-    assert!(model.remarks().iter().any(|remark| remark.contains(told)), "{:?}", model.remarks());
+    mistakes::refused(&crane(&clauses("linear")), &[("way(t)", "is differentiated")]);
 }
