@@ -396,3 +396,25 @@ def test_programs_have_parameters_of_rows():
     assert [name for name, _ in raised.value.fields] == ["m"]
     with pytest.raises(TypeError, match="`l` is none of them"):
         mass.element_forces(q, z, l=1.0)
+
+
+def test_driving_forces():
+    """Force and power of a trolley that a motion drives, in rows: the row of inverse dynamics of the whole."""
+    clauses = (
+        "coordinates(x, angle), gravity = 9.81, body(trolley, position = [x, 0, 0], mass = 2, inertia = 1), "
+        "body(bob, parent = trolley, rotation = rotation_y(angle), mass = 0.7, center_of_mass = [0, 0, -0.4], "
+        "inertia_about_center_of_mass = 0)"
+    )
+    driven, whole = gauss.scene(clauses + ", motion(x = 0.3 * sin(2.5 * t))")(), gauss.scene(clauses)()
+    t, q, z = np.array([0.1, 0.7, -0.4]), np.array([[0.3], [1.0], [-2.0]]), np.array([[0.5], [-3.0], [1.0]])
+    found = driven.driving_forces(q, z, t=t)
+    assert driven.motions == ["x"] and found.shape == (3, 1, 2) and whole.motions == []
+    x, v = 0.3 * np.sin(2.5 * t), 0.75 * np.cos(2.5 * t)
+    at, rate = np.column_stack([x, q]), np.column_stack([v, z])
+    rates = np.column_stack([-6.25 * x, driven.acceleration(q, z, t=t)])
+    # Some fifty products of forces up to ten.
+    force = whole.inverse_dynamics(at, rate, rates, t=t)
+    np.testing.assert_allclose(found[:, 0, 0], force[:, 0], rtol=0, atol=1e-13)
+    np.testing.assert_allclose(found[:, 0, 1], force[:, 0] * v, rtol=0, atol=1e-13)
+    np.testing.assert_allclose(force[:, 1], 0, rtol=0, atol=1e-13)
+    assert not hasattr(whole, "driving_forces") or "driving_forces" not in dir(whole)

@@ -5,7 +5,7 @@ use gauss_jit::{Model, Place};
 use crate::{leg, names, robot};
 
 /// All mistakes of a scene: each at the last place of its token on the first line, with a part of its message.
-pub fn refused(source: &str, expected: &[(&str, &str)]) {
+fn refused(source: &str, expected: &[(&str, &str)]) {
     let mistakes = match Model::from_source(source) {
         Ok(_) => panic!("accepted: {source}"),
         Err(mistakes) => mistakes,
@@ -22,7 +22,8 @@ pub fn refused(source: &str, expected: &[(&str, &str)]) {
 #[test]
 fn mistakes_are_told_where_they_are() {
     let scene = |clauses: &str| leg("slide, hip, knee", clauses);
-    let cases: [(&str, &[(&str, &str)]); 18] = [
+    let cases: [(&str, &[(&str, &str)]); 19] = [
+        ("table(way, points = WAY, kind = linear), motion(knee = way(t))", &[("way(t)", "is differentiated")]),
         (
             "motion(knee = 2 * hip)",
             &[(
@@ -55,7 +56,7 @@ fn mistakes_are_told_where_they_are() {
         ),
         (
             "speeds(v, w, u), kinematics(slide = v, hip = w, knee = u + v), motion(slide = t)",
-            &[("v)", "in the definition of `v`, which the rate of a coordinate uses: `rate(…)` is a velocity")],
+            &[("v, hip", "in the definition of `v`, which the rate of a coordinate uses: `rate(…)` is a velocity")],
         ),
     ];
     for (clauses, expected) in cases {
