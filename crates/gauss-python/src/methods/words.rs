@@ -211,7 +211,7 @@ impl Spec {
 }
 
 /// All methods, in the order of [`Id`].
-pub const SPECS: [Spec; 32] = [
+pub const SPECS: [Spec; 33] = [
     spec("acceleration", &[Q, Z, U], SPEEDS, "The rates of the speeds."),
     spec(
         "inverse_dynamics",
