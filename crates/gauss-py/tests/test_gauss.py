@@ -417,4 +417,3 @@ def test_driving_forces():
     np.testing.assert_allclose(found[:, 0, 0], force[:, 0], rtol=0, atol=1e-13)
     np.testing.assert_allclose(found[:, 0, 1], force[:, 0] * v, rtol=0, atol=1e-13)
     np.testing.assert_allclose(force[:, 1], 0, rtol=0, atol=1e-13)
-    assert not hasattr(whole, "driving_forces") or "driving_forces" not in dir(whole)
