@@ -136,13 +136,15 @@ impl<S: LinearizedSystem> OneStep<S> for Rosenbrock {
         let linear = system.linearize(start.t, &start.q, &start.z, &input);
         let mut bracket = brackets::<S>(&linear, rates.configuration);
         let mut feedback = feedback(problem, &start, &linear);
-        let diagonal = one / (h * number(GAMMA));
+        // Lanes without a run make steps of no length, which has no reciprocal: one that moves nothing stands for it.
+        let length = S::Scalar::select_lt(h.abs(), number(1e-30), number(1e-30), h);
+        let diagonal = one / (length * number(GAMMA));
         let factors = Model::<S>::factor(|row, column| {
             let slope = linear.by_state(row, column) + bracket(row, column) + feedback(row, column);
             if row == column { diagonal - slope } else { -slope }
         });
         let by_time = start.by_time(problem, &linear, &input, h);
-        let reciprocal = one / h;
+        let reciprocal = one / length;
 
         let mut stages = [Vector::<S>::zero(); STAGES];
         let mut increment = Vector::<S>::zero();
