@@ -124,8 +124,9 @@ impl<'k, K: ContactSystem> ContactTrajectory<'k, K> {
         self.stopped_by
     }
 
-    /// The times in which an open gap was looked at by samples alone. In all others no first touch is missed, whatever
-    /// steps there were: the gap was larger than what bounds of its rate allow it to fall by, or smooth.
+    /// The times in which a gap was looked at by samples alone: all of the run where it depends on the time itself. In
+    /// all others no first touch is missed, whatever steps there were: the gap was larger than what bounds of its rate
+    /// allow it to fall by, or smooth between the ends of some 128th of a step.
     #[must_use]
     pub fn sampled_gaps(&self) -> &[SampledGap] {
         &self.sampled

@@ -417,3 +417,15 @@ def test_driving_forces():
     np.testing.assert_allclose(found[:, 0, 0], force[:, 0], rtol=0, atol=1e-13)
     np.testing.assert_allclose(found[:, 0, 1], force[:, 0] * v, rtol=0, atol=1e-13)
     np.testing.assert_allclose(force[:, 1], 0, rtol=0, atol=1e-13)
+
+
+def test_values_are_not_taken_for_units():
+    text = "coordinates(x), particle(mass = m, position = [x, 0, 0])"
+    with pytest.raises(TypeError, match=r"m, k: a scene takes the unit .* scene\(..., m=None\)\(m=1.5\)"):
+        gauss.scene(text + ", drive(x = -k * x)", m=1.5, k=2)
+    free = gauss.scene(text, m=None)(m=1.5)
+    for interval in ([0, 1], np.array([0.0, 1.0])):
+        assert free.simulate([0.0], [2.0], interval).q[-1, 0] == 2.0
+    for wrong in (5, [0, 1, 2], "01", [0, None]):
+        with pytest.raises(TypeError, match="the interval is a pair of times"):
+            free.simulate([0.0], [2.0], wrong)

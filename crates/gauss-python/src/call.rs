@@ -77,10 +77,10 @@ pub fn call<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let (scene, spec) = (kernel.scene(), &SPECS[id as usize]);
     if !scene.has(id) {
-        let (name, method) = (scene.description().name, spec.name);
+        let (name, method, clause) = (scene.description().name, spec.name, spec.clause);
         return Err(PyTypeError::new_err(format!(
-            "{name} has no {method}: its struct does not say `#[gauss({})]`",
-            spec.clause
+            "{name} has no {method}: its struct does not say `#[gauss({clause})]`; models of `gauss.load` take \
+             `clauses=[\"{clause}\"]`"
         )));
     }
     let own = own::parameters(scene, spec.name, given.parameters)?;

@@ -93,7 +93,8 @@ impl Kernel {
         let scene = self.scene().description().name;
         if all.is_empty() {
             return Err(PyTypeError::new_err(format!(
-                "{scene} has no {what}s: its struct does not say `#[gauss({clause}(…))]`"
+                "{scene} has no {what}s: its struct does not say `#[gauss({clause}(…))]`; models of `gauss.load` take \
+                 `clauses=[\"{clause}(…)\"]`"
             )));
         }
         all.iter().position(|other| *other == name).ok_or_else(|| {

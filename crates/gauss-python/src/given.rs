@@ -121,6 +121,16 @@ pub fn ends(scene: &dyn AnyScene, given: Option<&Bound<'_, PyAny>>) -> PyResult<
     }
 }
 
+/// The times between which a run goes: any pair of numbers, a tuple, a list or an array.
+pub fn interval(given: &Bound<'_, PyAny>) -> PyResult<(f64, f64)> {
+    let times: Option<Vec<f64>> =
+        given.try_iter().ok().and_then(|times| times.map(|time| time.ok()?.extract().ok()).collect());
+    match times.as_deref() {
+        Some(&[start, end]) => Ok((start, end)),
+        _ => Err(PyTypeError::new_err("the interval is a pair of times, (0, 10)")),
+    }
+}
+
 /// Finite numbers, and what else must hold of tolerances and steps. The first of them is the relative tolerance.
 pub fn checked(interval: (f64, f64), positive: &[(&str, f64)]) -> PyResult<()> {
     if !(interval.0.is_finite() && interval.1.is_finite()) {

@@ -104,7 +104,7 @@ impl Kernel {
         py: Python<'py>,
         q: &Bound<'py, PyAny>,
         z: &Bound<'py, PyAny>,
-        interval: (f64, f64),
+        interval: &Bound<'py, PyAny>,
         rtol: Option<f64>,
         atol: Option<f64>,
         step: Option<f64>,
@@ -125,6 +125,7 @@ impl Kernel {
         scheme: Option<&str>,
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, Run>> {
+        let interval = given::interval(interval)?;
         let (scene, sizes) = (self.scene(), self.scene().sizes());
         let lengths = [("step", step.unwrap_or(1.0)), ("largest_step", largest_step.unwrap_or(1.0))];
         let positive = [("rtol", rtol.unwrap_or(1.0)), ("atol", atol.unwrap_or(1.0)), lengths[0], lengths[1]];
@@ -169,7 +170,7 @@ impl Kernel {
         py: Python<'py>,
         q: &Bound<'py, PyAny>,
         z: &Bound<'py, PyAny>,
-        interval: (f64, f64),
+        interval: &Bound<'py, PyAny>,
         rtol: Option<f64>,
         atol: Option<f64>,
         step: Option<f64>,
@@ -184,6 +185,7 @@ impl Kernel {
         scheme: Option<&str>,
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Ends> {
+        let interval = given::interval(interval)?;
         let (kernel, scene) = (self.kernel(), self.kernel().scene());
         let sizes = scene.sizes();
         let lengths = [("step", step.unwrap_or(1.0)), ("largest_step", largest_step.unwrap_or(1.0))];

@@ -289,6 +289,13 @@ def scene(text, /, *, tables=None, **fields):
         if fields:
             raise TypeError("a text with a struct has its parameters in it; remove the keywords")
         return _restored(("text", tables, text, 0, ()))
+    values = [name for name, own in fields.items() if not (own is None or isinstance(own, (str, Field)))]
+    if values:
+        name = values[0]
+        raise TypeError(
+            f"{', '.join(values)}: a scene takes the unit of each parameter, None without one; values go to the model "
+            f"that it gives: scene(..., {name}=None)({name}={fields[name]!r})"
+        )
     lines = [(own if isinstance(own, Field) else Field(own)).line(name) for name, own in fields.items()]
     source = "\n".join(["#[gauss(", text, ")]", "struct Scene {", *lines, "}", ""])
     return _restored(("text", tables, source, 1, ()))

@@ -161,7 +161,10 @@ pub fn no_contacts() -> String {
 
 /// Message that a method needs a clause, which its struct does not say.
 pub fn lacks(method: &str, clause: &str) -> String {
-    format!("the method {method} needs `#[gauss({clause})]` at the struct, which does not say it")
+    format!(
+        "the method {method} needs `#[gauss({clause})]` at the struct, which does not say it; models of `gauss.load` \
+         take `clauses=[\"{clause}\"]`"
+    )
 }
 
 fn stoppable<'a, S>(system: &'a S, request: &Request<'a>) -> Stoppable<'a, S> {
