@@ -107,7 +107,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
             }
         }
         if let Some(speed) = self.steep(h, (&middle, &made), input) {
-            return Err(self.error(None, ContactErrorKind::Stiff { speed, step: h }).into());
+            return Err(self.too_stiff(h, speed).into());
         }
         let mut doubt = None;
         if !self.agrees(h, (&middle, &made), input) {
@@ -126,11 +126,13 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
                 made => made?,
             };
         }
+        if let Some(speed) = self.overshoots(h, (&middle, &made), input) {
+            return Err(self.too_stiff(h, speed).into());
+        }
         if self.scheme == StepScheme::MoreauJean {
             self.follows(h, (&middle, &made), input)?;
         }
-        let stiff = self.strikes_stiffly(h, (&middle, &made), input);
-        let stiff = stiff.map(|speed| self.error(None, ContactErrorKind::Stiff { speed, step: h }));
+        let stiff = self.strikes_stiffly(h, (&middle, &made), input).map(|speed| self.too_stiff(h, speed));
         let is_stiff = stiff.is_some();
         match stiff {
             Some(cause) if !last => return Err(cause.into()),
@@ -149,6 +151,11 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         }
         watch.part((self.t, h), made.end.attempted(self.next.as_ref()));
         Ok(self.take(h, made)?)
+    }
+
+    /// The error of forces that change a speed more than a step can follow.
+    fn too_stiff(&self, h: f64, speed: usize) -> ContactError {
+        self.error(None, ContactErrorKind::Stiff { speed, step: h })
     }
 
     /// A step with forces at the speeds that are foreseen at half of it.
@@ -289,6 +296,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         !self.stiffens(h, at, input)
             && self.steep(h, at, input).is_none()
             && self.strikes_stiffly(h, at, input).is_none()
+            && self.overshoots(h, at, input).is_none()
             && self.agrees(h, at, input)
     }
 
@@ -357,7 +365,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         if last && struck && !made.end.struck {
             (middle, made) = self.again(h, (&middle, &made), input, (watch, true))?;
         }
-        let cause = self.error(None, ContactErrorKind::Stiff { speed, step: h });
+        let cause = self.too_stiff(h, speed);
         if last && made.end.struck { Ok((middle, made, Some(cause))) } else { Err(cause) }
     }
 }

@@ -283,7 +283,10 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             };
             // Too long for its forces or its impacts, but its laws have a solution for the whole of it, if for any.
             watch.keep(parts);
-            self.whole(h, input, (watch, last, false)).map_err(|_| error)
+            self.whole(h, input, (watch, last, false)).map_err(|again| match again {
+                Refused::Error(again) if last && is_stiff(&again) => again,
+                _ => error,
+            })
         })
     }
 

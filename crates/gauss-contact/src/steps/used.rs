@@ -104,6 +104,17 @@ impl<V: VectorSpace<f64>> Used<V> {
         (0..V::DIM).find(|i| by(*i) > part * sizes.component(*i))
     }
 
+    /// The first speed that forces turn back within the step: those at the mean speeds of its motion without contacts
+    /// differ from those that were taken by more than the speeds do, against that and more than twice as much.
+    pub(super) fn turns_back(&self, free: &V, at_free: &V) -> Option<usize> {
+        let sizes = self.sizes(SMALL);
+        (0..V::DIM).find(|i| {
+            let by = self.h * (at_free.component(*i) - self.acceleration.component(*i));
+            let off = free.component(*i) - self.used.component(*i);
+            by * off < 0.0 && by.abs() > 2.0 * off.abs() && by.abs() > ROUGH * sizes.component(*i)
+        })
+    }
+
     /// Whether an acceleration changes all speeds by less than a part of them, beside another one.
     pub(super) fn is_within(&self, part: f64, accelerations: [&V; 2]) -> bool {
         self.changes_beyond(part, accelerations).is_none()

@@ -6,6 +6,7 @@ mod changeover;
 #[path = "../laws/common.rs"]
 #[allow(dead_code, reason = "scenes of the other tests")]
 mod common;
+mod damped;
 mod driven;
 mod front;
 mod lanes;
