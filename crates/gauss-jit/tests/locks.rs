@@ -1,30 +1,13 @@
 //! Locked joints of robots and coordinates of scenes, read at run time, beside the whole models: mass matrices are
 //! submatrices, forces of inverse dynamics the same rows, and accelerations what a constraint of the rate leaves.
 
-use std::path::PathBuf;
+mod common;
 
+use common::{Random, names, robot};
 use gauss_jit::{Kernel, Model, Notation};
 
 /// Joints or coordinates with their values.
 type Locks = &'static [(&'static str, f64)];
-
-/// A pseudo-random number between −1 and 1.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64 * 2.0 - 1.0
-    }
-
-    fn list(&mut self, count: usize) -> Vec<f64> {
-        (0..count).map(|_| self.next()).collect()
-    }
-}
-
-fn robot(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../tests/robots").join(name)
-}
 
 fn of_file(name: &str, clauses: &[&str]) -> Model {
     let model = match name.ends_with("xml") {
@@ -32,10 +15,6 @@ fn of_file(name: &str, clauses: &[&str]) -> Model {
         false => Model::from_urdf(robot(name), clauses),
     };
     model.unwrap_or_else(|mistakes| panic!("{name}: {mistakes}"))
-}
-
-fn names(list: &[gauss_jit::Quantity]) -> Vec<String> {
-    list.iter().flat_map(|quantity| &quantity.numbers).cloned().collect()
 }
 
 /// Names of the numbers of a configuration: those of groups first.

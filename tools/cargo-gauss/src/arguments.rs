@@ -42,7 +42,7 @@ pub struct Show {
     /// With `program`, `c`, `header`, `cpp`, `casadi` and `functions`: these methods alone, with commas.
     #[arg(long = "method", value_delimiter = ',')]
     pub methods: Vec<String>,
-    /// With `c` and `header`: numbers are of single precision.
+    /// Numbers are of single precision, with `c` and `header`.
     #[arg(long)]
     pub single: bool,
     /// Writes to this file in place of the terminal.

@@ -1,6 +1,6 @@
 //! Stops that the motion of a step reaches.
 //!
-//! What damps a speed more than a step can follow turns it back by many times of itself, in the speeds that the step
+//! A damper too strong for a step to follow turns a speed back by many times of itself, in the speeds that the step
 //! foresees. In flight such attempts come to no end, and the step is made in parts. But a stop that they lead to ends
 //! them: there the speed is zero by whatever force, however far it is. So where forces would turn a speed back by more
 //! than itself, a gap that closes is to be reached by the speeds before the step, or by the mean ones at which forces

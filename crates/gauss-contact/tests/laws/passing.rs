@@ -71,6 +71,19 @@ struct Rotor {
     c: f64,
 }
 
+/// A rod whose ends may touch a floor.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(x, z, turn),
+    body(rod, position = [x, 0, z], rotation = rotation_y(turn), mass = 1, inertia = 0.08),
+    point(front, body = rod, at = [0.5, 0, 0]),
+    point(back, body = rod, at = [-0.5, 0, 0]),
+    contact(first, point = front),
+    contact(second, point = back),
+    gravity = 9.81,
+)]
+struct Whirling {}
+
 const DISTANCES: [f64; 5] = [0.4, 1.5, 5.0, 40.0, 300.0];
 const SPEEDS: [f64; 4] = [0.02, 3.0, 10.0, 250.0];
 const TOLERANCES: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
@@ -236,4 +249,24 @@ fn gaps_that_depend_on_the_time_are_told_to_be_sampled() {
     let kernel = Post { m: 1.0, rho: 0.1 }.kernel().expect("a scene");
     let run = ContactRun::new(&kernel).adaptive(1e-9, 1e-9).run([2.0, 0.0].into(), [-1.0, 0.0].into(), 0.0..10.0);
     assert!(run.expect("runs").sampled_gaps().is_empty());
+}
+
+/// A rod falls and turns some hundred times in a step of free flight, unless steps are bounded by ten turns: then its
+/// tip is met where it first touches.
+#[test]
+fn the_tip_of_a_rotor_is_met_in_steps_of_ten_turns() {
+    for speed in [500.0, 3000.0, 6000.0] {
+        for tolerance in [1e-6, 1e-9] {
+            let kernel = Whirling {}.kernel().expect("a scene");
+            let steps = Adaptive::new(tolerance, tolerance).largest_step(10.0 * std::f64::consts::TAU / speed);
+            let run = ContactRun::new(&kernel).control(steps).until(Crossing::Falling, |_, q, _| q[1] - 0.45);
+            let run = run.run([0.0, 2.0, 0.3].into(), [0.0, 0.0, speed].into(), 0.0..0.8).expect("runs");
+            let gap = |t: f64| 2.0 - 0.5 * 9.81 * t * t - 0.5 * (0.3 + speed * t).sin().abs();
+            let found = run.events().first().expect("it touches").time;
+            // The first zero of the exact motion, by looks a thousandth of a radian apart.
+            let look = 1e-3 / speed;
+            let first = (0..).map(|n| f64::from(n) * look).find(|t| gap(*t) < 0.0).expect("it touches");
+            assert!((found - first).abs() <= 2.0 * look, "{speed} {tolerance}: {found} {first}");
+        }
+    }
 }

@@ -1,25 +1,12 @@
 //! Coordinates that are driven, `motion(x = f(t))`, read at run time: beside known equations, beside the same motion
 //! under a constraint with its multiplier, and beside inverse dynamics of the whole.
 
+#[path = "../common/mod.rs"]
+mod common;
 mod mistakes;
 
-use std::path::PathBuf;
-
+use common::{Random, names, robot};
 use gauss_jit::{Kernel, Model};
-
-/// A pseudo-random number between −1 and 1.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64 * 2.0 - 1.0
-    }
-
-    fn list(&mut self, count: usize) -> Vec<f64> {
-        (0..count).map(|_| self.next()).collect()
-    }
-}
 
 fn model(source: &str) -> Model {
     Model::from_source(source).unwrap_or_else(|mistakes| panic!("{source}: {mistakes}"))
@@ -144,14 +131,6 @@ fn beside_multiplier(what: &str, (driven, motion): (&Model, &str), whole: &Model
     }
 }
 
-fn robot(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../tests/robots").join(name)
-}
-
-fn names(list: &[gauss_jit::Quantity]) -> Vec<String> {
-    list.iter().flat_map(|quantity| &quantity.numbers).cloned().collect()
-}
-
 /// Names of the numbers of a configuration: those of groups first.
 fn configuration(model: &Model) -> Vec<String> {
     let scalar = |quantity: &&gauss_jit::Quantity| quantity.numbers.len() == 1;
@@ -259,7 +238,7 @@ fn leg(coordinates: &str, clauses: &str) -> String {
 
 const OF_LEG: [(&str, &[f64]); 2] = [("m", &[3.0]), ("l", &[0.4])];
 
-/// What `method` of two models gives at the same states, argument by argument at random.
+/// Compares a method of two models at the same states, argument by argument at random.
 fn same(what: &str, [a, b]: [&Kernel; 2], method: &str, terms: f64) {
     let [own, other] = [a, b].map(|kernel| kernel.method(method).unwrap_or_else(|error| panic!("{what}: {error}")));
     assert_eq!(own.outputs(), other.outputs(), "{what} {method}");
@@ -367,7 +346,7 @@ fn energy_comes_from_the_drives() {
     }
 }
 
-/// Of dry friction along a motion the drive overcomes the bound, and at rest it is told without it; a scene whose only
+/// The drive overcomes the bound of dry friction along a motion, and at rest it is told without it; a scene whose only
 /// dry friction it was has no contacts left.
 #[test]
 fn dry_friction_along_a_motion() {

@@ -63,8 +63,7 @@ fn the_guides_program_in_cpp() {
     prints_what_the_guide_says("cpp", ["c++", "-std=c++17"], &[("cpp", "cart_pole.hpp")], &["-isystem", eigen]);
 }
 
-/// Of the rules of MISRA C that cppcheck knows one is not kept, and that the guide names: a function has no declaration
-/// before it.
+/// One rule of MISRA C that cppcheck knows is not kept, as the guide says: no declaration stands before a function.
 #[test]
 fn rules_for_safety_that_functions_in_c_keep() {
     if Command::new("cppcheck").arg("--version").output().is_err() {
