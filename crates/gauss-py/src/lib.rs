@@ -7,6 +7,7 @@ mod fmu;
 mod lie;
 mod model;
 mod programs;
+mod waiting;
 
 use pyo3::prelude::*;
 

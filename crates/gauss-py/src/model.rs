@@ -9,6 +9,7 @@ use pyo3::types::PyDict;
 
 use crate::errors;
 use crate::programs::Programs;
+use crate::waiting::interruptible;
 
 /// A scene with its equations, and the programs that compute them.
 #[pyclass(frozen, module = "gauss._native")]
@@ -27,27 +28,32 @@ type Signature = (Vec<(String, Vec<String>)>, Vec<(String, usize, usize)>);
 impl Model {
     /// The model of the struct in a text.
     #[staticmethod]
-    fn of_text(py: Python<'_>, source: &str) -> PyResult<Self> {
-        let derived = py.detach(|| match Cache::of_user() {
-            Some(cache) => cache.from_source(source),
-            None => gauss_jit::Model::from_source(source),
-        });
+    fn of_text(py: Python<'_>, source: String) -> PyResult<Self> {
+        let derived = interruptible(py, move || match Cache::of_user() {
+            Some(cache) => cache.from_source(&source),
+            None => gauss_jit::Model::from_source(&source),
+        })?;
         derived.map(|model| Self { model }).map_err(|mistakes| errors::scene(py, &mistakes))
     }
 
     /// The model of a robot's file. `lasts`: whether the file will be there another time.
     #[staticmethod]
     #[pyo3(signature = (format, path, clauses, lasts=true))]
-    fn of_file(py: Python<'_>, format: &str, path: &str, clauses: Vec<String>, lasts: bool) -> PyResult<Self> {
-        let clauses: Vec<&str> = clauses.iter().map(String::as_str).collect();
-        let derived = py.detach(|| match (format, Cache::of_user().filter(|_| lasts)) {
-            ("urdf", Some(cache)) => Some(cache.from_urdf(path, &clauses)),
-            ("mjcf", Some(cache)) => Some(cache.from_mjcf(path, &clauses)),
-            ("urdf", None) => Some(gauss_jit::Model::from_urdf(path, &clauses)),
-            ("mjcf", None) => Some(gauss_jit::Model::from_mjcf(path, &clauses)),
-            _ => None,
-        });
-        let derived = derived.ok_or_else(|| PyValueError::new_err(format!("`{format}` is neither urdf nor mjcf")))?;
+    fn of_file(py: Python<'_>, format: &str, path: String, clauses: Vec<String>, lasts: bool) -> PyResult<Self> {
+        let is_urdf = match format {
+            "urdf" => true,
+            "mjcf" => false,
+            _ => return Err(PyValueError::new_err(format!("`{format}` is neither urdf nor mjcf"))),
+        };
+        let derived = interruptible(py, move || {
+            let clauses: Vec<&str> = clauses.iter().map(String::as_str).collect();
+            match (is_urdf, Cache::of_user().filter(|_| lasts)) {
+                (true, Some(cache)) => cache.from_urdf(&path, &clauses),
+                (false, Some(cache)) => cache.from_mjcf(&path, &clauses),
+                (true, None) => gauss_jit::Model::from_urdf(&path, &clauses),
+                (false, None) => gauss_jit::Model::from_mjcf(&path, &clauses),
+            }
+        })?;
         derived.map(|model| Self { model }).map_err(|mistakes| errors::scene(py, &mistakes))
     }
 

@@ -346,6 +346,32 @@ def test_forks_compute():
     assert subprocess.run([sys.executable, "-c", FORKED], timeout=300).returncode == 0
 
 
+LEFT = """
+import os, pathlib, signal, sys, threading
+import gauss
+
+os.environ["GAUSS_CACHE"] = ""
+signal.signal(signal.SIGINT, signal.default_int_handler)
+ends = [" + ".join(f"l*{of}(a{i})" for i in range(number + 1)) for number in range(14) for of in ("sin", "cos")]
+bodies = ", ".join(f"particle(mass = m, position = [{x}, {y}, 0])" for x, y in zip(ends[::2], ends[1::2]))
+chain = f"coordinates({', '.join(f'a{i}' for i in range(14))}), {bodies}, linearize(hessian)"
+threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+try:
+    gauss.scene(chain, m="kg", l="m")
+except KeyboardInterrupt:
+    # The derivation, of many seconds, goes on; other scenes are derived meanwhile.
+    names = [(task / "comm").read_text().strip() for task in pathlib.Path("/proc/self/task").iterdir()]
+    other = gauss.scene("coordinates(x), particle(mass = m, position = [x, 0, 0])", m="kg")(m=2.0)
+    os._exit(0 if "gauss-derivatio" in names and other.acceleration([0.0], [0.0]) == [0.0] else 1)
+sys.exit(2)
+"""
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="threads have no names in files")
+def test_derivations_are_left_by_interruptions():
+    assert subprocess.run([sys.executable, "-c", LEFT], timeout=300).returncode == 0
+
+
 def test_the_command_shows_a_file():
     shown = [sys.executable, "-m", "gauss", "show", str(ARM)]
     text = subprocess.run(shown, capture_output=True, text=True, check=True).stdout
