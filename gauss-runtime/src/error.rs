@@ -122,7 +122,8 @@ impl fmt::Display for Violation {
                 write!(
                     f,
                     "`{field}` and the other parameters together leave the range of the scalar (a constant of the kernel \
-                     is {value}); choose units in which the parameters are nearer to 1"
+                     is {value}); none by which others are divided, as a length, may be 0, and units are best in which \
+                     the parameters are near 1"
                 )
             }
             Rule::PositiveMass if *value == 0.0 => write!(

@@ -279,7 +279,11 @@ impl ContactErrorKind {
     /// Writes why closed gaps, and those that should be open, are refused.
     fn of_gaps(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NegativeGap { gap } => write!(f, "the gap starts at {gap:e}; it must not be negative"),
+            Self::NegativeGap { gap } => write!(
+                f,
+                "the gap starts at {gap:e}; it must not be negative, not even by rounding: start a little above, from \
+                 where a body falls to rest"
+            ),
             Self::JumpPenetrates { event, gap } => {
                 write!(f, "the jump of event {event} (from 0) leaves the gap at {gap:e}; it must not be negative")
             }
@@ -301,7 +305,7 @@ impl ContactErrorKind {
                 write!(f, "the closed gap is closing at {rate:e}; start from the state after the impact")
             }
             Self::NonFinite => f.write_str(
-                "gaps, rates, coefficients or forces (of inputs, too) are not finite; a rim that lies flat (a coin, a \
+                "gaps, rates, coefficients or forces are not finite: look at the input first, then at the scene; a rim that lies flat (a coin, a \
                  cylinder on its face) has no lowest point: give points on it contacts of their own in its place, or \
                  end the run before",
             ),

@@ -24,7 +24,10 @@ fn text_that_is_no_scene() {
             "struct A { x: f64 }",
             "1:1: there is no struct with `#[gauss(…)]` in this text; write `#[gauss(…)] struct Name { … }`",
         ),
-        ("#[gauss(coordinates(x)", "1:8: cannot parse string into token stream"),
+        ("#[gauss(coordinates(x)", "1:8: nothing closes this `(`"),
+        ("#[gauss(coordinates(x)]\nstruct A {}", "1:8: nothing closes this `(` before the next `]`"),
+        ("#[gauss(λ = [sin(\"(\"), 0)]\nstruct A {}", "1:13: nothing closes this `[` before the next `)`"),
+        ("#[gauss(linearize)]\nstruct A {}}", "2:12: this `}` closes nothing"),
         (
             "#[gauss(linearize)] struct A {}\n#[gauss(linearize)] struct B {}",
             "2:28: a text has one scene, and `B` is another; remove it",

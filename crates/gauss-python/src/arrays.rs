@@ -1,6 +1,6 @@
 //! Arrays of NumPy as rows of numbers: arguments read in place where they are what a kernel reads, converted otherwise.
 
-use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -27,6 +27,11 @@ pub struct Batch<'a> {
 
 fn is_plain(array: &Bound<'_, PyArrayDyn<f64>>) -> bool {
     array.is_c_contiguous() && array.is_aligned()
+}
+
+/// The array itself, where it is of no class of its own, such as one that masks numbers.
+fn itself<'a, 'py>(value: &'a Bound<'py, PyAny>) -> Option<&'a Bound<'py, PyArrayDyn<f64>>> {
+    value.cast().ok().filter(|_| value.is_exact_instance_of::<PyUntypedArray>())
 }
 
 /// Distance between rows, in numbers, where they are parts of longer rows that follow each other, as fields of
@@ -59,6 +64,10 @@ fn converted<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, 
     let named = |error: PyErr| PyTypeError::new_err(format!("{name} is no array of real numbers: {}", error.value(py)));
     let asarray = ASARRAY.get_or_try_init(py, || Ok::<_, PyErr>(py.import("numpy")?.getattr("asarray")?.unbind()))?;
     let array = asarray.bind(py).call1((value,)).map_err(named)?;
+    if value.hasattr("mask")? && py.import("numpy.ma")?.call_method1("is_masked", (value,))?.is_truthy()? {
+        let why = format!("{name} has masked entries, and every number counts; fill them, or leave those rows out");
+        return Err(PyTypeError::new_err(why));
+    }
     let how = PyDict::new(py);
     how.set_item("order", "C")?;
     how.set_item("casting", "same_kind")?;
@@ -86,20 +95,20 @@ pub fn vector(name: &str, value: &Bound<'_, PyAny>, size: usize) -> PyResult<Vec
 impl<'py> Rows<'py> {
     /// Reads an argument.
     pub fn of(name: &'static str, value: &Bound<'py, PyAny>) -> PyResult<Self> {
-        match value.cast::<PyArrayDyn<f64>>() {
-            Ok(array) if is_plain(array) => Ok(Self { array: array.clone(), apart: None }),
-            Ok(array) => match apart(array) {
+        match itself(value) {
+            Some(array) if is_plain(array) => Ok(Self { array: array.clone(), apart: None }),
+            Some(array) => match apart(array) {
                 Some(apart) => Ok(Self { array: array.clone(), apart: Some(apart) }),
                 None => Ok(Self { array: converted(name, value)?, apart: None }),
             },
-            Err(_) => Ok(Self { array: converted(name, value)?, apart: None }),
+            None => Ok(Self { array: converted(name, value)?, apart: None }),
         }
     }
 
     /// Numbers, one for each state: in one piece.
     pub fn numbers(name: &'static str, value: &Bound<'py, PyAny>) -> PyResult<Self> {
-        match value.cast::<PyArrayDyn<f64>>() {
-            Ok(array) if is_plain(array) => Ok(Self { array: array.clone(), apart: None }),
+        match itself(value) {
+            Some(array) if is_plain(array) => Ok(Self { array: array.clone(), apart: None }),
             _ => Ok(Self { array: converted(name, value)?, apart: None }),
         }
     }

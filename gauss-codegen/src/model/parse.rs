@@ -14,7 +14,7 @@ use crate::model::names::inputs;
 use crate::model::robots;
 use crate::model::scene::model::Model;
 use crate::terms::{Item, KernelOptions, RobotFile, Scalar};
-use proc_macro2::TokenStream;
+use proc_macro2::{Span, TokenStream};
 use syn::ext::IdentExt;
 use syn::punctuated::Punctuated;
 use syn::token::Brace;
@@ -189,10 +189,10 @@ fn check_derivatives(wanted: &KernelOptions, has_contacts: bool, context: &mut C
 /// # Errors
 /// What is no Rust; the name, if there is no such struct.
 pub fn struct_in(source: &str, name: &str) -> syn::Result<DeriveInput> {
-    let file = syn::parse_file(source)?;
+    let file = syn::parse_file(source).map_err(|error| unbalanced(source).unwrap_or(error))?;
     let Some(item) = find(&file.items, name) else {
         let message = format!("there is no struct `{name}` in this file");
-        return Err(syn::Error::new(proc_macro2::Span::call_site(), message));
+        return Err(syn::Error::new(Span::call_site(), message));
     };
     Ok(item.clone().into())
 }
@@ -202,7 +202,8 @@ pub fn struct_in(source: &str, name: &str) -> syn::Result<DeriveInput> {
 /// # Errors
 /// What is no Rust; no such struct; every further one.
 pub fn only_struct_in(source: &str) -> syn::Result<DeriveInput> {
-    let tokens: TokenStream = source.parse()?;
+    let tokens: TokenStream =
+        source.parse().map_err(|error| unbalanced(source).unwrap_or_else(|| Error::from(error)))?;
     if let Some(span) = nesting::item_too_deep(tokens.clone()) {
         return Err(Error::new(span, format!("nested more than {} levels deep", nesting::DEEPEST)));
     }
@@ -219,7 +220,7 @@ pub fn only_struct_in(source: &str) -> syn::Result<DeriveInput> {
     let mut scenes = file.items.into_iter().filter_map(scene);
     let Some(first) = scenes.next() else {
         let message = "there is no struct with `#[gauss(…)]` in this text; write `#[gauss(…)] struct Name { … }`";
-        return Err(Error::new(proc_macro2::Span::call_site(), message));
+        return Err(Error::new(Span::call_site(), message));
     };
     let further = scenes.map(|scene| {
         let message = format!("a text has one scene, and `{}` is another; remove it", scene.ident);
@@ -230,6 +231,30 @@ pub fn only_struct_in(source: &str) -> syn::Result<DeriveInput> {
         all
     });
     all.map_or_else(|| Ok(first.into()), Err)
+}
+
+/// The bracket of a text that none closes, or that closes none: the compiler's own words name it, those of a text that
+/// is read at run time do not.
+fn unbalanced(source: &str) -> Option<Error> {
+    let failed = |text: &str| text.parse::<TokenStream>().err().map(|error| error.span());
+    let offset = |span: Span| {
+        let start = span.start();
+        let line: usize = source.split_inclusive('\n').take(start.line - 1).map(str::len).sum();
+        let rest = source.get(line..)?;
+        Some(line + rest.char_indices().nth(start.column).map_or(rest.len(), |(place, _)| place))
+    };
+    let bracket = |span: Span| source.get(offset(span)?..)?.chars().next();
+    let first = failed(source)?;
+    let (span, message) = match bracket(first)? {
+        open @ ('(' | '[' | '{') => (first, format!("nothing closes this `{open}`")),
+        // The text before it ends with what it was to close.
+        close @ (')' | ']' | '}') => match failed(source.get(..offset(first)?)?) {
+            Some(open) => (open, format!("nothing closes this `{}` before the next `{close}`", bracket(open)?)),
+            None => (first, format!("this `{close}` closes nothing")),
+        },
+        _ => return None,
+    };
+    Some(Error::new(span, message))
 }
 
 fn find<'a>(items: &'a [syn::Item], name: &str) -> Option<&'a syn::ItemStruct> {
@@ -247,6 +272,6 @@ impl From<crate::error::Error> for syn::Error {
             all.combine(mistake);
             all
         });
-        all.unwrap_or_else(|| syn::Error::new(proc_macro2::Span::call_site(), "a mistake without a name"))
+        all.unwrap_or_else(|| syn::Error::new(Span::call_site(), "a mistake without a name"))
     }
 }

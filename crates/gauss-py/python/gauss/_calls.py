@@ -34,6 +34,8 @@ def numbers(name, value):
     """Real numbers as an array of float64 in C order, aligned; a copy where the value is none."""
     if type(value) is np.ndarray and value.dtype == np.float64 and value.flags.carray:
         return value
+    if np.ma.is_masked(value):
+        raise TypeError(f"{name} has masked entries, and every number counts; fill them, or leave those rows out")
     try:
         array = np.asarray(value)
         array = array.astype(np.float64, order="C", casting="same_kind", copy=False)

@@ -298,7 +298,20 @@ def scene(text, /, *, tables=None, **fields):
         )
     lines = [(own if isinstance(own, Field) else Field(own)).line(name) for name, own in fields.items()]
     source = "\n".join(["#[gauss(", text, ")]", "struct Scene {", *lines, "}", ""])
-    return _restored(("text", tables, source, 1, ()))
+    try:
+        return _restored(("text", tables, source, 1, ()))
+    except SceneError:
+        _check_brackets(text)
+        raise
+
+
+def _check_brackets(text):
+    """Raises what the brackets of clauses alone have wrong: what stands around them would close some."""
+    try:
+        _native.Model.of_text(text)
+    except SceneError as error:
+        if any(" closes " in message and "this `" in message for _, _, message in error.mistakes):
+            raise error from None
 
 
 def _arrays(tables):

@@ -7,6 +7,7 @@ use super::{File, Place};
 use crate::collision::{Collision, Shape, Surface};
 use crate::names::unknown;
 use crate::rotation::{Matrix, Rotation, Triple, multiply, turned};
+use crate::xml::own_elements;
 
 const GEOM: &[&str] = &["geom"];
 
@@ -14,6 +15,7 @@ impl<'a> File<'a> {
     /// Reads how a geom of a link touches; one without bits, such as one that is only seen, touches by pairs alone.
     pub fn collision(&mut self, node: Node<'a, 'a>, link: &str, class: Option<&'a str>, (at, matrix): &Place) {
         self.reading.see(node);
+        self.check_geom(node, class);
         let surface = self.touching(node, class);
         let is_hidden = surface.kind == 0 && surface.affinity == 0;
         let (position, rotation, half) = self.geom_place(node, class);
@@ -30,6 +32,26 @@ impl<'a> File<'a> {
             shape,
             surface: Some(surface),
         });
+    }
+
+    /// Notes mistakes that MuJoCo's compiler refuses as well.
+    fn check_geom(&mut self, node: Node<'a, 'a>, class: Option<&'a str>) {
+        if self.text(node, GEOM, "fromto", class).is_some() && self.text(node, GEOM, "pos", class).is_some() {
+            self.reading.fault_of_value(
+                node,
+                "pos",
+                "`fromto` says where it is, and so does `pos`; remove one of them",
+            );
+        }
+        let moves =
+            |above: Node<'a, 'a>| own_elements(above).any(|own| matches!(own.tag_name().name(), "joint" | "freejoint"));
+        if self.text(node, GEOM, "type", class) == Some("plane") && node.ancestors().skip(1).any(moves) {
+            self.reading.fault_of_value(
+                node,
+                "type",
+                "a plane has no end and no mass, so it stands in bodies that do not move; write a box",
+            );
+        }
     }
 
     /// Centre and axes of a geom, and half its length where its ends say that. The third axis is from the second end
@@ -185,6 +207,29 @@ mod tests {
         assert_eq!((capsule.position, capsule.name), ([1.0, 0.0, 0.0], Some("g".to_owned())));
         assert_eq!(capsule.rotation.map(|row| row[2]), [-1.0, 0.0, 0.0]);
         assert_eq!(capsule.shape, Shape::Capsule { radius: 0.1, half: 1.0 });
+    }
+
+    /// MuJoCo 4.0: "both pos and fromto defined in geom", "plane only allowed in static bodies".
+    #[test]
+    fn geoms_that_mujoco_refuses_too() {
+        let plane = r#"<geom type="plane" size="1 1 1"/>"#;
+        let (two, moving) = ("`fromto` says where it is, and so does `pos`", "a plane has no end and no mass");
+        let default = r#"<default><default class="c"><geom pos="0 1 0"/></default></default>"#;
+        for (before, inside, told) in [
+            ("", r#"<body><joint/><geom size="1" fromto="0 0 0 0 0 1" pos="1 0 0"/></body>"#.to_owned(), Some(two)),
+            (default, r#"<body><joint/><geom size="1" fromto="0 0 0 0 0 1" class="c"/></body>"#.to_owned(), Some(two)),
+            ("", r#"<body><joint/><geom size="1" fromto="0 0 0 0 0 1" euler="1 0 0"/></body>"#.to_owned(), None),
+            ("", format!(r#"<body><freejoint/><geom size="1"/>{plane}</body>"#), Some(moving)),
+            ("", format!(r#"<body><joint/><geom size="1"/><body>{plane}</body></body>"#), Some(moving)),
+            ("", format!(r#"<body><joint/><geom size="1"/></body><body>{plane}</body>{plane}"#), None),
+        ] {
+            let faults = described(&format!("{before}<worldbody>{inside}</worldbody>")).err().unwrap_or_default();
+            let found: Vec<&str> = faults.iter().map(|fault| &*fault.message).collect();
+            match told {
+                Some(told) => assert!(found.len() == 1 && found[0].contains(told), "{inside}: {found:?}"),
+                None => assert!(found.is_empty(), "{inside}: {found:?}"),
+            }
+        }
     }
 
     #[test]

@@ -121,9 +121,13 @@ impl<'a> File<'a> {
             None => (place, rotation.matrix, None),
         };
         let Some((volume, moments)) = measure(kind, &size, half) else {
-            let shell = if is_shell { "shell" } else { "<geom>" };
-            let text =
-                format!("the mass of {} is not read: a {shell} of type `{kind}` needs its mesh or sizes", shown(node));
+            let why = if is_shell && kind == "ellipsoid" {
+                "the shell of an `ellipsoid` has no area in closed form; write an <inertial>".to_owned()
+            } else {
+                let shell = if is_shell { "shell" } else { "<geom>" };
+                format!("a {shell} of type `{kind}` needs its mesh or sizes")
+            };
+            let text = format!("the mass of {} is not read: {why}", shown(node));
             self.reading.ignored(node, text);
             return None;
         };

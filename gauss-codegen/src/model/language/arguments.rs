@@ -39,7 +39,7 @@ pub fn name(ident: &Ident, noun: &str, context: &mut Context) -> Option<Ident> {
     match syn::parse2::<Ident>(TokenTree::Ident(ident.clone()).into()) {
         Ok(ident) => Some(ident),
         Err(_) => {
-            context.error(ident.span(), format!("`{ident}` is a keyword and cannot name {}", words::a(noun)));
+            context.error(ident.span(), format!("`{ident}` is a keyword of Rust and cannot name {}", words::a(noun)));
             None
         }
     }

@@ -475,9 +475,20 @@ fn apply(
             2 => "two arguments",
             _ => "three arguments",
         };
+        let before = match receiver {
+            Some(Expr::Path(path)) if written.len() > function.arguments() => {
+                path.path.get_ident().map(|own| format!(" (`{own}` before the dot is one)"))
+            }
+            _ => None,
+        };
         context.error(
             name.span(),
-            format!("`{name}` takes {takes}, found {}; write `{}`", written.len(), function.example()),
+            format!(
+                "`{name}` takes {takes}, found {}{}; write `{}`",
+                written.len(),
+                before.unwrap_or_default(),
+                function.example()
+            ),
         );
         return None;
     }

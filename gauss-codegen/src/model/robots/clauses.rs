@@ -277,9 +277,11 @@ impl<'a> Robot<'a> {
         };
         let fault = |(link, _): (usize, bool)| {
             let link = &self.description.links[link];
+            let unread = self.notes.iter().filter(|note| note.text.starts_with("the mass of "));
+            let unread: String = unread.map(|note| format!(" ({})", note.text)).collect();
             let message = format!(
                 "the link `{}` moves, and neither it nor what hangs on it has an <inertial>; add one, give its joint an \
-                 `armature`, or fix it",
+                 `armature`, or fix it{unread}",
                 link.name
             );
             Fault { at: link.at, message }

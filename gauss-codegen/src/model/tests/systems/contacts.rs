@@ -314,7 +314,10 @@ fn what_does_not_move() {
                 "the slip contains no velocity of anything that moves; write `tip.velocity`, a speed, or the time \
                  derivative `rate(…)`",
             ),
-            ("l", "the range is that of nothing that moves; name a coordinate, or a body or point that moves"),
+            (
+                "l",
+                "the range is that of nothing that moves, as a locked coordinate is; name a coordinate, or a body or point that moves",
+            ),
             (
                 "position",
                 "the point does not move, so it never touches; name a coordinate, or a body or point that moves",

@@ -232,7 +232,7 @@ fn kinds_and_names() {
             ("u", "`u` needs a value; write `u = …`"),
             ("=", "nothing follows `u =`; write a value or remove the clause"),
             ("3", "`define` takes words, found 3; write a definition such as `u = body.relative_velocity`"),
-            ("if", "`if` is a keyword and cannot name a definition"),
+            ("if", "`if` is a keyword of Rust and cannot name a definition"),
             ("u", "the definition `u` is declared twice; remove one of the two"),
             ("v", "`v` names a speed and a definition; rename one of the two"),
         ],

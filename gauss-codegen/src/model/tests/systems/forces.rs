@@ -381,7 +381,7 @@ fn names() {
          force(pull, at = tip, value = c), torque(pull, body = arm, value = c), drive(a, x = 1), drive(arm, x = 1), \
          spring(hypot, from = tip, to = nail, stiffness = k), spring(if, from = tip, to = nail, stiffness = k)",
         &[
-            ("if", "`if` is a keyword and cannot name a spring"),
+            ("if", "`if` is a keyword of Rust and cannot name a spring"),
             ("pull", "two forces are called `pull`; rename one of the two"),
             ("pull", "`pull` names a force and a torque; rename one of the two"),
             ("hypot", "`hypot` is a function of expressions and cannot name a spring; rename it"),

@@ -30,7 +30,7 @@ fn declarations() {
     check(&moving("coordinates(x: f64, y)"), &[(":", "a scalar coordinate has no type; write `x`")]);
     check(&moving("coordinates(x y)"), &[("y", "expected `,` after `x`, found `y`; separate names by commas")]);
     check(&moving("coordinates(x, 2)"), &[("2", "expected the name of a coordinate, found the literal `2`")]);
-    check(&moving("coordinates(x, y, if)"), &[("if", "`if` is a keyword and cannot name a coordinate")]);
+    check(&moving("coordinates(x, y, if)"), &[("if", "`if` is a keyword of Rust and cannot name a coordinate")]);
     check(
         &moving("coordinates()"),
         &[("(", "`coordinates()` is empty; write `coordinates(x, y, theta)` or remove it")],

@@ -52,7 +52,7 @@ fn rates() {
     );
     mistakes("states()", &[("(", "`states()` is empty; write `states(x = (u - x) / tau)` or remove it")]);
     mistakes("states = 1", &[("1", "`states` takes brackets, not `=`; write `states(x = (u - x) / tau)`")]);
-    mistakes("states(loop = 1)", &[("loop", "`loop` is a keyword and cannot name a state")]);
+    mistakes("states(loop = 1)", &[("loop", "`loop` is a keyword of Rust and cannot name a state")]);
     mistakes(
         "state(amps = 1)",
         &[(
