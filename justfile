@@ -72,6 +72,11 @@ wheels:
 page:
     cargo run -p gauss-web
 
+# The site, one static folder (`target/site`): guide, reference, examples with pages that play, scenes that run in it.
+# `cargo install mdbook mdbook-katex` and `rustup target add wasm32-unknown-unknown` once.
+site:
+    cargo run -p gauss-web --bin gauss-site
+
 # How long a derive takes with an unoptimised macro.
 expansion:
     cargo run --profile unoptimised --example expansion_time

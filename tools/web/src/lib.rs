@@ -12,6 +12,7 @@
 //! | [`live`] | a motion that goes on: its parameters may change while it runs |
 //! | [`exports`] | the functions that the browser calls |
 //! | [`page`], [`build`] | the page, and the kernels in it |
+//! | [`site`] | the front page of the site, of which `gauss-site` builds all |
 
 pub mod build;
 pub mod exports;
@@ -19,3 +20,4 @@ pub mod live;
 pub mod page;
 pub mod scene;
 pub mod scenes;
+pub mod site;

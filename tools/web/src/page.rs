@@ -7,6 +7,10 @@ use serde::Serialize;
 use crate::scene::{Show, Slider};
 use crate::scenes::{ALL, Entry};
 
+/// Options of Cargo for kernels that are small.
+pub const SMALL: [&str; 3] =
+    ["--release", "--config=profile.release.lto='fat'", "--config=profile.release.panic='abort'"];
+
 const TEMPLATE: &str = include_str!("live.html");
 const STYLES: [&str; 2] = [include_str!("../../../crates/gauss-playback/src/page.css"), include_str!("live.css")];
 /// Those of `gauss-playback`, and what runs instead of its player.
