@@ -10,9 +10,11 @@
 //! | [`rosenbrock`] | a linearly implicit method of order 4 for stiff scenes |
 //! | [`adams`] | multistep methods: from the derivatives of earlier steps |
 //! | [`taylor`] | power series of the solution, where the derive gives them |
+//! | [`choice`] | methods by name, for programs whose users choose one. [`method`](choice::method): the table, with a row for each [`Method`]; [`step`](choice::step), [`control`](choice::control): all of them as one type |
 //! | [`drive`] | runs. [`control`](drive::control): what carries a state over an interval; [`fixed`](drive::fixed); [`adaptive`](drive::adaptive), with [`step_length`](drive::step_length): how steps grow and shrink, and [`tolerance`](drive::tolerance): errors, and what rounding does to them; [`pace`](drive::pace), [`cause`](drive::cause): when and why a run is given up; [`compensated`](drive::compensated): what is rounded off is carried; [`projection`](drive::projection): constraints; [`event`](drive::event), [`search`](drive::search), `each`, `zero`: zeros of functions, jumps; `schedule`: controllers that sample; [`run`](drive::run): from jump to jump; `interval`: from instant to instant; [`trajectory`](drive::trajectory), [`summary`](drive::summary): what is kept; `record`: [`RunRecord`], what tables and pages read; [`simulation`](drive::simulation): [`Simulation`], the front; [`stepper`](drive::stepper): [`Stepper`], step by step; `boxed`: in a type for fields of structs |
 
 pub mod adams;
+pub mod choice;
 pub mod drive;
 pub mod lie_group;
 pub mod problem;
@@ -23,6 +25,10 @@ pub mod structure;
 pub mod taylor;
 
 pub use adams::Adams;
+pub use choice::control::{MethodControl, StepSetting};
+pub use choice::error::{MethodError, UnknownMethod};
+pub use choice::method::Method;
+pub use choice::step::{Absent, MethodPair, MethodPlace, MethodStep, NoTaylor};
 #[cfg(feature = "alloc")]
 pub use drive::RunRecord;
 pub use drive::adaptive::Adaptive;

@@ -518,5 +518,7 @@ impl<S: TaylorSystem> Control<S> for Taylor {
         }
     }
 
-    const LONG_STEPS: bool = true;
+    fn long_steps(&self) -> bool {
+        true
+    }
 }

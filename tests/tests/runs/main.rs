@@ -3,6 +3,7 @@
 mod adapters;
 mod batch;
 mod between;
+mod by_name;
 mod endings;
 mod events;
 mod higher_precision;

@@ -186,7 +186,10 @@ impl<T, const K: usize> Sealed for Adams<T, K> {}
 
 impl<S: BatchSystem, const K: usize> LaneControl<S> for Adams<S::Scalar, K> {
     type Memory = AdamsMemory<S, K>;
-    const PACED: bool = false;
+
+    fn paced(&self) -> bool {
+        false
+    }
 
     fn memory(&self, span: f64, _: u64) -> Result<AdamsMemory<S, K>, IntegrationErrorKind> {
         let march = March::new(self.step, span)?;

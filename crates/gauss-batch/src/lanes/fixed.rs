@@ -220,7 +220,10 @@ impl<T, M> Sealed for Fixed<T, M> {}
 
 impl<S: BatchSystem, M: OneStep<S>> LaneControl<S> for Fixed<S::Scalar, M> {
     type Memory = March<S>;
-    const PACED: bool = false;
+
+    fn paced(&self) -> bool {
+        false
+    }
 
     fn memory(&self, span: f64, _: u64) -> Result<March<S>, IntegrationErrorKind> {
         March::new(self.step, span)

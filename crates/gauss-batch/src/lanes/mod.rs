@@ -9,6 +9,7 @@ mod adams;
 mod adaptive;
 mod ended;
 mod fixed;
+mod method;
 pub(crate) mod run;
 mod system;
 mod taylor;
@@ -31,7 +32,8 @@ use gauss_runtime::simd::Packed;
 /// A choice of steps that can be made for every lane by itself:
 /// [`Adaptive`](gauss_runtime::integrate::Adaptive) by any method that estimates its error,
 /// [`Taylor`](gauss_runtime::integrate::Taylor), [`Fixed`](gauss_runtime::integrate::Fixed) by any method, and
-/// [`Adams`](gauss_runtime::integrate::Adams). Its functions are for the runs of this crate, which alone implements it.
+/// [`Adams`](gauss_runtime::integrate::Adams); whatever is chosen by name of these, a
+/// [`MethodControl`](gauss_runtime::integrate::MethodControl). Its functions are for the runs of this crate, which alone implements it.
 pub trait LaneControl<S: BatchSystem>: Control<S> + Sealed {
     /// Memory of the lanes from step to step.
     #[doc(hidden)]
@@ -39,7 +41,9 @@ pub trait LaneControl<S: BatchSystem>: Control<S> + Sealed {
 
     /// Whether it may turn out on the way that a run has no prospect of its end.
     #[doc(hidden)]
-    const PACED: bool = true;
+    fn paced(&self) -> bool {
+        true
+    }
 
     /// Before any lane is on its way.
     #[doc(hidden)]

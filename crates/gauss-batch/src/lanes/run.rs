@@ -337,7 +337,7 @@ where
 
     /// A step in all lanes that have runs.
     fn step(&mut self, runs: &mut dyn Runs<S>) {
-        for lane in (0..self.running.len()).filter(|_| C::PACED) {
+        for lane in (0..self.running.len()).filter(|_| self.all.control.paced()) {
             let left = self.group.left(lane);
             let t = number(self.group.state.t, lane);
             let spent = self.running[lane].as_mut().and_then(|running| running.pace.spent(t, left));

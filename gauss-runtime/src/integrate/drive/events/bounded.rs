@@ -222,7 +222,7 @@ where
         };
         let times = [self.made.before.0.t, self.length()].map(|t| t.lane(lane));
         let rounding = rounding(self.problem, function, lane, self.made.before.0);
-        let off = if C::LONG_STEPS { 0.0 } else { self.off(function, bound)? };
+        let off = if self.control.long_steps() { 0.0 } else { self.off(function, bound)? };
         let resolution = self.resolution;
         let (start, more) = (from, MORE);
         let mut followed =

@@ -105,7 +105,7 @@ where
         let unit = S::Scalar::EPSILON.max(f64::EPSILON);
         // The part of a step that changes its end by four roundings of the time, at least of the step itself.
         let resolution = 4.0 * unit * (from.abs().max(to.abs()) / (to - from).abs()).max(1.0);
-        Self { control, problem, made, resolution, parts: if C::LONG_STEPS { PARTS.1 } else { PARTS.0 } }
+        Self { control, problem, made, resolution, parts: if control.long_steps() { PARTS.1 } else { PARTS.0 } }
     }
 
     pub(in crate::integrate) fn length(&self) -> S::Scalar {
@@ -260,8 +260,9 @@ where
     pub(super) fn glances(&self) -> impl FnMut(f64) -> Result<State<S>, IntegrationErrorKind> {
         let (before, rates) = self.made.before;
         let length = self.length();
-        let mut along = C::LONG_STEPS.then(|| self.control.along(self.problem, before, rates));
-        let cubic = (!C::LONG_STEPS).then(|| StepCubic::of(self.made));
+        let long = self.control.long_steps();
+        let mut along = long.then(|| self.control.along(self.problem, before, rates));
+        let cubic = (!long).then(|| StepCubic::of(self.made));
         move |part| match (&mut along, &cubic) {
             (Some(along), _) => along(length * S::Scalar::from_f64(part)),
             (None, Some(cubic)) => Ok(cubic.at(part)),

@@ -54,6 +54,13 @@ pub struct Progress<S: GaussSystem, M> {
 }
 
 impl<S: GaussSystem, M> Progress<S, M> {
+    /// The same run with another memory.
+    #[inline]
+    pub(in crate::integrate) fn with<N>(self, memory: impl FnOnce(M) -> N) -> Progress<S, N> {
+        let Self { state, rates, end, ended, memory: old } = self;
+        Progress { state, rates, end, ended, memory: memory(old) }
+    }
+
     /// Before the first step, told to `emit`.
     #[inline(always)]
     pub fn new(
@@ -170,7 +177,9 @@ pub trait Control<S: GaussSystem> {
 
     /// Whether steps are so long that the cubic between their ends is no approximation of the states within: events are
     /// then looked for among states of [`along`](Self::along).
-    const LONG_STEPS: bool = false;
+    fn long_steps(&self) -> bool {
+        false
+    }
 }
 
 /// One step by a method, brought onto the constraints where there are any.
