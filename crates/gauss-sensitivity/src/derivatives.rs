@@ -1,13 +1,13 @@
 //! The front: choose the steps, then ask for derivatives.
 
-use gauss_runtime::integrate::{Adaptive, DormandPrince8, Fixed, RungeKutta};
+use gauss_runtime::integrate::{Adaptive, DormandPrince8, Fixed, Method, MethodError, RungeKutta, StepSetting};
 
 use crate::adjoint::{Gradient, gradient};
 use crate::error::{EnsembleError, SensitivityError};
 use crate::fit::{Fit, FitError, fit};
 use crate::forward::{Point, follow};
 use crate::run::{Cost, Residuals, Run};
-use crate::steps::Steps;
+use crate::steps::{ExplicitMethod, Steps};
 
 /// The control of steps of one length.
 pub type FixedSteps = Fixed<f64, RungeKutta<DormandPrince8, 12>>;
@@ -34,6 +34,16 @@ impl Derivatives<FixedSteps> {
     /// Steps of one length: [`Fixed::new`]. A run between two instants that are one step apart is a single step.
     pub fn fixed_step(step: f64) -> Self {
         Self::by(Fixed::new(step))
+    }
+}
+
+impl Derivatives<ExplicitMethod> {
+    /// Steps by a method that is chosen by name, with the bits of [`by`](Self::by) with the method's own type.
+    ///
+    /// # Errors
+    /// [`MethodError`]: the method is no explicit one of one step, or makes no such steps.
+    pub fn by_method(method: Method, setting: StepSetting<f64>) -> Result<Self, MethodError> {
+        ExplicitMethod::new(method, setting).map(Self::by)
     }
 }
 

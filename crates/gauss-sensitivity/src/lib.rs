@@ -53,7 +53,7 @@ pub use forward::Point;
 pub use run::{At, ConfigurationOf, Cost, InputOf, Residuals, Run, SpeedsOf, Start};
 pub use saltation::Saltation;
 pub use states::constant;
-pub use steps::Steps;
+pub use steps::{ExplicitMethod, Steps};
 
 /// The example of the README is a test.
 #[cfg(doctest)]

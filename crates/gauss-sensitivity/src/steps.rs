@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 use gauss_runtime::integrate::drive::observer::Observer;
 use gauss_runtime::integrate::{
     Adaptive, Coefficients, CommutatorFree4, Control, Crossing, DEFAULT_LIMIT, Fixed, InputSource, IntegrationError,
-    IntegrationErrorKind, Problem, Rates, RungeKutta, Sample, Simulation, State, SystemProblem, VelocityForm,
+    IntegrationErrorKind, Method, MethodControl, MethodError, MethodStep, Problem, Rates, RungeKutta, Sample,
+    Simulation, State, StepSetting, SystemProblem, VelocityForm,
 };
 use gauss_runtime::system::GaussSystem;
 
@@ -14,7 +15,7 @@ mod sealed {
 }
 
 /// Explicit methods with their choice of steps: [`Fixed`] and [`Adaptive`] by [`RungeKutta`], [`Fixed`] by
-/// [`CommutatorFree4`].
+/// [`CommutatorFree4`], and whatever of these is chosen by name, an [`ExplicitMethod`].
 ///
 /// Implicit methods are not among them: their iterations end where values have converged, and derivatives may not
 /// have.
@@ -111,8 +112,25 @@ where
     Ok((State { t: end.t, q: end.q, y: end.z }, end.stopped_by.is_some()))
 }
 
+/// An explicit method of one step that is chosen by name, with its choice of steps:
+/// [`Derivatives::by_method`](crate::Derivatives::by_method).
+#[derive(Clone, Copy, Debug)]
+pub struct ExplicitMethod {
+    method: MethodStep,
+    control: MethodControl<f64>,
+}
+
+impl ExplicitMethod {
+    pub(crate) fn new(method: Method, setting: StepSetting<f64>) -> Result<Self, MethodError> {
+        let explicit = MethodStep::of(method).filter(|_| method.is_explicit_step());
+        Ok(Self { method: explicit.ok_or(MethodError::Implicit(method))?, control: method.control(setting)? })
+    }
+}
+
+/// Implements [`Steps`] for types that have a method as a field `method`: with the control that makes the steps, and
+/// the same after steps of about a length.
 macro_rules! steps {
-    ($([$($generics:tt)*] $control:ty: |$self:ident, $length:ident| $after:expr;)+) => {$(
+    ($([$($generics:tt)*] $control:ty: |$self:ident, $length:ident| $by:expr, $after:expr;)+) => {$(
         impl<$($generics)*> sealed::Sealed for $control {}
 
         impl<$($generics)*> Steps for $control {
@@ -127,7 +145,7 @@ macro_rules! steps {
             }
 
             fn drive<S, I, E, J>(
-                &self,
+                &$self,
                 problem: SystemProblem<'_, S, VelocityForm, I>,
                 state: State<S>,
                 end: f64,
@@ -140,7 +158,7 @@ macro_rules! steps {
                 E: Fn(f64, &S::Configuration, &S::Speeds) -> f64,
                 J: FnMut(&mut Sample<S>),
             {
-                drive_by(*self, problem, state, end, event, reached)
+                drive_by($by, problem, state, end, event, reached)
             }
 
             fn after(&$self, $length: Option<f64>) -> Self {
@@ -151,9 +169,13 @@ macro_rules! steps {
 }
 
 steps! {
-    [C: Coefficients<N> + Copy, const N: usize] Fixed<f64, RungeKutta<C, N>>: |self, _length| *self;
-    [] Fixed<f64, CommutatorFree4>: |self, _length| *self;
-    [C: Coefficients<N> + Copy, const N: usize] Adaptive<RungeKutta<C, N>>: |self, length| {
+    [C: Coefficients<N> + Copy, const N: usize] Fixed<f64, RungeKutta<C, N>>: |self, _length| *self, *self;
+    [] Fixed<f64, CommutatorFree4>: |self, _length| *self, *self;
+    [C: Coefficients<N> + Copy, const N: usize] Adaptive<RungeKutta<C, N>>: |self, length| *self, {
         length.map_or(*self, |length| self.first_step(length))
+    };
+    [] ExplicitMethod: |self, length| self.control, {
+        let after = |length| Self { control: self.control.first_step(length), ..*self };
+        length.map_or(*self, after)
     };
 }

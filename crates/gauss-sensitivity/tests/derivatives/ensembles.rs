@@ -1,7 +1,8 @@
 //! Sums over runs, and numbers from measurements.
 
+use gauss_runtime::integrate::{Fixed, Method, MethodError, StepSetting};
 use gauss_runtime::prelude::*;
-use gauss_sensitivity::{At, Cost, Derivatives, EnsembleError, Residuals, Run, SensitivityError, Start};
+use gauss_sensitivity::{At, Cost, Derivatives, EnsembleError, Residuals, Run, SensitivityError, Start, Steps};
 
 use super::number;
 
@@ -89,6 +90,46 @@ fn recorded(angle: f64, deviation: f64, noise: &mut Normal) -> Recorded {
 fn several(deviation: f64, seed: u64) -> Vec<Recorded> {
     let mut noise = Normal(seed);
     [0.3, -1.0, 2.0, 2.6].map(|angle| recorded(angle, deviation, &mut noise)).into()
+}
+
+/// Steps by a method that is chosen by name are those of the method's own type, forward and backward; implicit methods
+/// and those of several steps are refused.
+#[test]
+fn methods_by_name_have_the_same_bits() {
+    let (runs, numbers) = (several(0.02, 1), [0.55, 0.1]);
+    fn compare<C: Steps>(method: Method, setting: StepSetting<f64>, own: C, (runs, numbers): (&[Recorded], [f64; 2])) {
+        let (named, own) = (Derivatives::by_method(method, setting).expect("is explicit"), Derivatives::by(own));
+        for run in runs {
+            assert_eq!(named.gradient(run, &numbers), own.gradient(run, &numbers), "{method}");
+            let [named, own] = [named.run(run, &numbers), own.run(run, &numbers)].map(|points| {
+                let points = points.expect("swings");
+                points.iter().map(|point| (point.q, point.z)).collect::<Vec<_>>()
+            });
+            assert_eq!(named, own, "{method}");
+        }
+    }
+    let (all, step, tolerant) = ((&runs[..], numbers), 0.07, StepSetting::tolerant(1e-7, 1e-7));
+    let mut compared = Vec::new();
+    macro_rules! each {
+        ($($method:ident: $own:expr $(, $keeps:ident)?;)+) => {$(
+            compare(Method::$method, StepSetting::Equal(step), Fixed::by($own, step), all);
+            $(compare(Method::$method, tolerant, Adaptive::$keeps($own, 1e-7, 1e-7), all);)?
+            compared.push(Method::$method);
+        )+};
+    }
+    each! {
+        DormandPrince8: RungeKutta(DormandPrince8), by;
+        DormandPrince5: RungeKutta(DormandPrince5), by;
+        Verner9: RungeKutta(Verner9), by;
+        Classical4: RungeKutta(Classical4);
+        CommutatorFree4: CommutatorFree4;
+    }
+    for &method in Method::ALL.iter().filter(|method| !compared.contains(method)) {
+        let refused = Derivatives::by_method(method, StepSetting::Equal(step)).map(drop);
+        assert_eq!(refused, Err(MethodError::Implicit(method)));
+    }
+    let refused = Derivatives::by_method(Method::Classical4, tolerant).map(drop);
+    assert_eq!(refused, Err(MethodError::NoEstimate(Method::Classical4)));
 }
 
 #[test]
