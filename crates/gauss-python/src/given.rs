@@ -1,6 +1,7 @@
 //! Values that runs are given in Python: inputs, events, states, methods, controllers.
 
 use gauss_contact::{Impact, StepLaw, StepScheme};
+use gauss_runtime::integrate::{Method, StepSetting};
 use gauss_runtime::prelude::Crossing;
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -225,22 +226,22 @@ pub fn control(name: &str, touches: bool, words: Words<'_>) -> PyResult<Control>
     if let Some((word, _)) = of_contacts.clone().find(|(_, given)| given.is_some()) {
         return Err(PyTypeError::new_err(format!("{word} is of contacts, and none act in this {name}")));
     }
-    match (method.unwrap_or("dormand_prince"), step) {
-        ("dormand_prince" | "collocation", Some(_)) if tolerates => {
-            wrong("steps of one length, step, keep no rtol and atol: give one or the other")
+    let method = match method {
+        None => Method::DormandPrince8,
+        Some(name) => name.parse().map_err(|error| PyValueError::new_err(format!("{name:?} is {error}")))?,
+    };
+    match step {
+        Some(_) if !method.takes_length() => {
+            wrong(&format!("the method {method} chooses its steps by rtol and atol, and takes no step"))
         }
-        ("dormand_prince", None) => Ok(Control::Adaptive(rtol, atol, largest)),
-        ("dormand_prince", Some(step)) => Ok(Control::Fixed(step)),
-        ("collocation", Some(step)) => Ok(Control::Implicit(step)),
-        ("collocation", None) => wrong("the method collocation needs step: its steps are of one length"),
-        ("rosenbrock", None) => Ok(Control::Stiff(rtol, atol, largest)),
-        ("taylor", None) => Ok(Control::Taylor(rtol, atol, largest)),
-        (name @ ("rosenbrock" | "taylor"), Some(_)) => {
-            wrong(&format!("the method {name} chooses its steps by rtol and atol, and takes no step"))
+        Some(_) if tolerates => wrong("steps of one length, step, keep no rtol and atol: give one or the other"),
+        Some(step) => Ok(Control::Smooth(method, StepSetting::Equal(step))),
+        None if !method.keeps_tolerances() => {
+            wrong(&format!("the method {method} needs step: its steps are of one length"))
         }
-        (name, _) => {
-            let all = "dormand_prince, rosenbrock, taylor, collocation";
-            wrong(&format!("{name:?} is no method; there are {all}"))
+        None => {
+            let largest = Some(largest).filter(|largest| largest.is_finite());
+            Ok(Control::Smooth(method, StepSetting::Tolerant { relative: rtol, absolute: atol, largest }))
         }
     }
 }

@@ -153,8 +153,8 @@ impl<S: Scene> Registered<S> {
     /// The scene with all methods that the struct asked for.
     #[must_use]
     pub fn new() -> Self {
-        let (mut single, mut packed, mut steps) = (Table::new(), Table::new(), Methods::new());
-        S::offer(&mut single, &mut packed, &mut steps);
+        let (mut single, mut packed) = (Table::new(), Table::new());
+        let steps = S::offer(&mut single, &mut packed);
         let sizes = Sizes::of::<S::Single>([single.multipliers, single.motions.len()], single.parameters.len());
         let description = S::description();
         let blocks = description.unit_blocks().collect();

@@ -95,6 +95,11 @@ pub use pyo3;
 pub use scene::{ConfigurationOf, ScalarOf, Scene, SpeedsOf};
 #[doc(hidden)]
 pub use steps::Methods;
+/// Methods that need a clause, and what is in their place without it.
+#[doc(hidden)]
+pub mod places {
+    pub use gauss_runtime::integrate::{Absent, NoTaylor, Rosenbrock, Taylor};
+}
 
 /// A module of Python with a class for each struct; its name is that of the library in `Cargo.toml`. Structs that are
 /// generic in their scalar are written with `f64`: their batches are computed in lanes all the same.

@@ -49,7 +49,7 @@ pub trait Scene: Sized + 'static {
     fn at_rest() -> (<Self::Single as GaussSystem>::Configuration, <Self::Single as GaussSystem>::Speeds);
 
     /// The methods that were asked for, and those of integration.
-    fn offer(single: &mut Table<Self::Single>, packed: &mut Table<Self::Packed>, steps: &mut Methods<Self::Single>);
+    fn offer(single: &mut Table<Self::Single>, packed: &mut Table<Self::Packed>) -> Methods<Self::Single>;
 }
 
 /// Code that the derive calls for a struct with `#[gauss(python)]`: the struct in words, and its kernels.
@@ -119,15 +119,14 @@ macro_rules! scene {
                 fn offer(
                     single: &mut $crate::Table<Self::Single>,
                     packed: &mut $crate::Table<Self::Packed>,
-                    steps: &mut $crate::Methods<Self::Single>,
-                ) {
-                    let _ = (&single, &packed, &steps);
+                ) -> $crate::Methods<Self::Single> {
+                    let _ = (&single, &packed);
                     type Kernel = $crate::__in_scalar!($kernel [$($scalar)?] ::core::primitive::f64);
-                    $($crate::__step!(steps.$step Kernel);)*
                     $(
                         single.$offer();
                         packed.$offer();
                     )*
+                    $crate::__steps!(Kernel Absent NoTaylor $($step)*)
                 }
             }
         };
@@ -163,15 +162,21 @@ macro_rules! __from_numbers {
     };
 }
 
-/// A way of running: contacts are said with their list.
+/// The ways of running: places for methods that need a clause, and contacts, with their list.
 #[doc(hidden)]
 #[macro_export]
-macro_rules! __step {
-    ($steps:ident.contacts $kernel:ident) => {
-        $steps.contacts($kernel::CONTACTS)
+macro_rules! __steps {
+    ($kernel:ident $rosenbrock:ident $taylor:ident taylor $($step:ident)*) => {
+        $crate::__steps!($kernel $rosenbrock Taylor $($step)*)
     };
-    ($steps:ident.$step:ident $kernel:ident) => {
-        $steps.$step()
+    ($kernel:ident $rosenbrock:ident $taylor:ident rosenbrock $($step:ident)*) => {
+        $crate::__steps!($kernel Rosenbrock $taylor $($step)*)
+    };
+    ($kernel:ident $rosenbrock:ident $taylor:ident contacts) => {
+        $crate::__steps!($kernel $rosenbrock $taylor).with_contacts($kernel::CONTACTS)
+    };
+    ($kernel:ident $rosenbrock:ident $taylor:ident) => {
+        $crate::Methods::new::<$crate::places::$rosenbrock, $crate::places::$taylor>()
     };
 }
 

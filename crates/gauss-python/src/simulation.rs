@@ -2,6 +2,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use gauss_runtime::integrate::{Method, StepSetting};
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -286,7 +287,7 @@ impl Kernel {
             z: &z,
             parameters: Vec::new(),
             interval: (0.0, 0.0),
-            control: Control::Adaptive(1.0, 1.0, f64::INFINITY),
+            control: Control::Smooth(Method::DormandPrince8, StepSetting::tolerant(1.0, 1.0)),
             limit: None,
             input,
             until: None,

@@ -3,17 +3,23 @@
 use std::fmt::Write;
 use std::sync::Arc;
 
+use gauss_runtime::integrate::Method;
+
 use crate::arrays::shown;
 use crate::description::Shape;
 use crate::documentation::documentation;
 use crate::kernels::AnyScene;
 use crate::methods::{Argument, Id, SPECS, Size, Spec};
 
-const HEAD: &str = include_str!("stubs.pyi.txt");
+/// The text before all classes.
+fn head() -> String {
+    let methods: Vec<String> = Method::ALL.iter().map(|method| format!("{:?}", method.name())).collect();
+    include_str!("stubs.pyi.txt").replace("METHODS", &methods.join(", "))
+}
 
 /// The text of a module with these classes.
 pub fn text(scenes: &[Arc<dyn AnyScene>]) -> String {
-    let mut text = format!("{HEAD}{}", tuples());
+    let mut text = head() + &tuples();
     scenes.iter().for_each(|scene| text.push_str(&class(&**scene)));
     text
 }
@@ -24,7 +30,7 @@ pub fn text_of_loaded() -> String {
     let names = Names { frames: None, joints: None };
     let of = |spec: &Spec| method(spec, &names, |_| true, spec.documentation);
     let methods: String = SPECS.iter().map(of).collect();
-    format!("{HEAD}{methods}{}", tuples())
+    head() + &methods + &tuples()
 }
 
 /// Classes of results, of methods that give several.

@@ -131,12 +131,36 @@ def test_collocation_is_of_order_6(pendulum):
     assert 40 < ratio < 90
 
 
+OF_ONE_LENGTH = ["collocation_2", "collocation_4", "runge_kutta_4", "commutator_free_4", "adams_10", "adams_12"]
+
+
+def test_all_methods_by_name_agree(torpedo):
+    q, z = torpedo.state(pose_z=-5.0)
+    z[:] = [1.5, 0, 0, 0.1, 0.2, 0.3]
+    run = torpedo.simulate(q, z, (0, 3), rtol=1e-11, atol=1e-11)
+    exact = np.append(run.q[-1], run.z[-1])
+    for method in ["dormand_prince_5", "verner_9"]:
+        run = torpedo.simulate(q, z, (0, 3), method=method, rtol=1e-9, atol=1e-9)
+        assert abs(np.append(run.q[-1], run.z[-1]) - exact).max() < 1e-6, method
+    for method in [*OF_ONE_LENGTH, "collocation", "dormand_prince", "dormand_prince_5", "verner_9", "rosenbrock"]:
+        # Of order 2 at least: its error falls to a fourth or less in half of the length.
+        of_length = [torpedo.simulate(q, z, (0, 3), method=method, step=step) for step in (0.02, 0.01)]
+        assert [run.steps for run in of_length] == [150, 300], method
+        coarse, fine = [abs(np.append(run.q[-1], run.z[-1]) - exact).max() for run in of_length]
+        assert fine < max(0.3 * coarse, 1e-9) and fine < 1e-3, method
+    for method in OF_ONE_LENGTH:
+        with pytest.raises(ValueError, match=f"the method {method} needs step"):
+            torpedo.simulate(q, z, (0, 3), method=method)
+
+
 def test_mistakes_with_methods(pendulum, arm):
     def run(**given):
         return pendulum.simulate([0.5], [0.0], (0.0, 1.0), input=[0.0], **given)
 
-    with pytest.raises(ValueError, match='"euler" is no method; there are dormand_prince, rosenbrock, taylor'):
-        run(method="euler")
+    with pytest.raises(ValueError, match='"eular" is no such method; there are dormand_prince, rosenbrock, .*, taylor$'):
+        run(method="eular")
+    with pytest.raises(ValueError, match='"RK45" is no such method; .*; is dormand_prince_5 meant'):
+        run(method="RK45")
     with pytest.raises(ValueError, match="collocation needs step"):
         run(method="collocation")
     with pytest.raises(ValueError, match="taylor chooses its steps"):

@@ -5,12 +5,13 @@
 //! those of the model's own numbers ([`System::share`]).
 
 use gauss_jit::{Kernel, MixedConfiguration, System, SystemWithContacts};
-use gauss_runtime::prelude::{Configuration, GaussSystem, SVector};
+use gauss_runtime::integrate::{Absent, MethodError, NoTaylor, StepSetting};
+use gauss_runtime::prelude::{Configuration, GaussSystem, Rosenbrock, SVector};
 
 use crate::methods::Sizes;
 use crate::steps::{
-    self, Control, Effect, Event, Held, InContact, Input, Jumped, Outcome, Request, Until, Watched, components, lacks,
-    no_contacts, numbers_of, smooth, stiff, touching, vector,
+    self, Control, Effect, Event, Held, InContact, Input, Jumped, Outcome, Request, Until, Watched, components,
+    no_contacts, numbers_of, smooth, touching, vector,
 };
 
 /// A system with room for N numbers of each kind.
@@ -100,19 +101,19 @@ pub fn simulate(kernel: &Kernel, sizes: &Sizes, request: &Request<'_>) -> Result
         });
     }
     let kernel = &kernel.without_contacts();
-    match request.control {
-        Control::Stiff(..) if !kernel.model().methods().any(|name| name == "linearize") => {
-            Err(lacks("rosenbrock", "linearize"))
+    let Control::Smooth(method, _) = request.control else { return Err(no_contacts()) };
+    match method.clause() {
+        Some("taylor") => return Err(format!("the method {method} is one of compiled kernels")),
+        Some(clause) if !kernel.model().methods().any(|name| name == clause) => {
+            return Err(MethodError::Clause(method, clause).to_string());
         }
         // Matrices over states of more are too large for the stacks of threads.
-        Control::Stiff(relative, absolute, largest) => in_room!(kernel, least(sizes), |system| {
-            let share = system.share();
-            let tolerances = (tolerance(relative, share), absolute * share, largest);
-            in_its_room(&system, sizes, request, |q, request| stiff(&system, q, request, tolerances))
-        }; 4 8 16 32 64),
+        None if least(sizes) > 64 => in_room!(kernel, least(sizes), |system| {
+            in_its_room(&system, sizes, request, |q, request| smooth::<_, Absent, NoTaylor>(&system, q, request))
+        }; 128),
         _ => in_room!(kernel, least(sizes), |system| {
-            in_its_room(&system, sizes, request, |q, request| smooth(&system, q, request))
-        }),
+            in_its_room(&system, sizes, request, |q, request| smooth::<_, Rosenbrock, NoTaylor>(&system, q, request))
+        }; 4 8 16 32 64),
     }
 }
 
@@ -192,8 +193,9 @@ fn in_its_room<const N: usize, const CONSTRAINED: bool>(
         .collect();
     let share = system.share();
     let control = match request.control {
-        Control::Adaptive(relative, absolute, largest) => {
-            Control::Adaptive(tolerance(relative, share), absolute * share, largest)
+        Control::Smooth(method, StepSetting::Tolerant { relative, absolute, largest }) => {
+            let (relative, absolute) = (tolerance(relative, share), absolute * share);
+            Control::Smooth(method, StepSetting::Tolerant { relative, absolute, largest })
         }
         Control::ContactEvents(relative, absolute, largest, law) => {
             Control::ContactEvents(tolerance(relative, share), absolute * share, largest, law)

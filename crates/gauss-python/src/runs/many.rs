@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use gauss_batch::{Batch, BatchSystem, Ensemble, Kernels, RunOutcome, SingleConfiguration, SingleSpeeds, States};
-use gauss_runtime::integrate::{Adaptive, VelocityForm};
+use gauss_runtime::integrate::{Adaptive, Method, StepSetting, VelocityForm};
 use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;
 
@@ -190,7 +190,9 @@ where
         many.ended.fetch_add(1, Ordering::Relaxed);
     };
     let (relative, absolute) = match many.control {
-        Control::Adaptive(relative, absolute, _) => (relative, absolute),
+        Control::Smooth(Method::DormandPrince8, StepSetting::Tolerant { relative, absolute, .. }) => {
+            (relative, absolute)
+        }
         other => return Err(format!("an ensemble has steps as long as tolerances allow, and not {other:?}")),
     };
     let control = looking(Adaptive::new(relative, absolute), &many.input);

@@ -2,77 +2,59 @@
 
 use gauss_runtime::contact::{Contact, ContactSystem};
 use gauss_runtime::integrate::drive::each::Each;
-use gauss_runtime::integrate::{Adaptive, Collocation, Control as Steps, Fixed, IntegrationError};
+use gauss_runtime::integrate::{Control as Steps, EstimatingStep, IntegrationError, MethodControl, MethodError, MethodPlace};
 use gauss_runtime::prelude::*;
 
 use super::outcome::{InContact, Outcome, columns, energies, happened, number_of_end, row};
-use super::request::{Control, Request, looking};
+use super::request::{Control, Request};
 use super::stoppable::Stoppable;
 use super::watching::{Moving, input, jump, of_numbers, watched};
 use super::{configuration, contacts, vector, words};
 use crate::methods::System;
 
-/// The relative and the absolute tolerance, and the longest step.
-type Tolerances = (f64, f64, f64);
 /// Time, q and z, input.
 type At<S> = fn(&S, f64, (&[f64], &[f64]), &[f64]) -> Result<InContact, String>;
-type Stepper<S> = fn(&S, &Request<'_>, Tolerances) -> Result<Outcome, String>;
+type Stepper<S> = fn(&S, &Request<'_>) -> Result<Outcome, String>;
 
 /// The contacts of a system, and what is done with them.
 #[derive(Clone, Copy, Debug)]
 struct Contacts<S> {
     all: &'static [Contact],
-    run: fn(&S, &Request<'_>) -> Result<Outcome, String>,
+    run: Stepper<S>,
     at: At<S>,
 }
 
-/// The methods of integration that only some systems have.
+/// The runs of a system: by methods without contacts, and with contacts.
 #[derive(Clone, Copy, Debug)]
 pub struct Methods<S> {
-    taylor: Option<Stepper<S>>,
-    rosenbrock: Option<Stepper<S>>,
+    smooth: Stepper<S>,
     contacts: Option<Contacts<S>>,
 }
 
 impl<S: System<Scalar = f64>> Methods<S> {
-    /// None of them: each word in `steps` of [`scene!`](crate::scene) adds one.
+    /// Runs without contacts: `R` and `P` are [`Rosenbrock`] and [`Taylor`] where the system has what these need, as
+    /// the words in `steps` of [`scene!`](crate::scene) say.
     #[must_use]
-    pub fn new() -> Self {
-        Self { taylor: None, rosenbrock: None, contacts: None }
-    }
-
-    /// Power series.
-    pub fn taylor(&mut self)
+    pub fn new<R, P>() -> Self
     where
-        S: TaylorSystem,
+        for<'a> R: MethodPlace<Rosenbrock> + EstimatingStep<Stoppable<'a, S>>,
+        for<'a> P: MethodPlace<Taylor> + Steps<Stoppable<'a, S>>,
     {
-        self.taylor = Some(|system, request, (relative, absolute, largest)| {
-            let control = Taylor::new(relative, absolute);
-            let q = configuration::<S::Configuration>(request.q)?;
-            run(&stoppable(system, request), q, request, bounded(control, largest, Taylor::largest_step))
-        });
-    }
-
-    /// Rosenbrock's method, which needs derivatives by the state.
-    pub fn rosenbrock(&mut self)
-    where
-        S: LinearizedSystem,
-    {
-        self.rosenbrock = Some(|system, request, tolerances| {
-            stiff(system, configuration::<S::Configuration>(request.q)?, request, tolerances)
-        });
+        Self { smooth: |system, request| smooth::<S, R, P>(system, configuration(request.q)?, request), contacts: None }
     }
 
     /// Runs with these contacts, which are those of all kernels of the type.
-    pub fn contacts(&mut self, all: &'static [Contact])
+    #[must_use]
+    pub fn with_contacts(self, all: &'static [Contact]) -> Self
     where
         S: ContactSystem,
     {
-        self.contacts = Some(Contacts {
+        let contacts = Some(Contacts {
             all,
             run: |system, request| contacts::run(system, configuration(request.q)?, request),
             at: |system, t, (q, z), input| contacts::at(system, t, (configuration(q)?, z), input),
         });
+        Self { contacts, ..self }
     }
 
     /// The contacts; none where the system has no such runs.
@@ -96,62 +78,31 @@ impl<S: System<Scalar = f64>> Methods<S> {
     /// # Errors
     /// A first state that is none, a method that the system has not.
     pub fn simulate(&self, system: &S, request: &Request<'_>) -> Result<Outcome, String> {
-        let q = configuration::<S::Configuration>(request.q)?;
-        match request.control {
-            Control::Adaptive(..) | Control::Fixed(_) | Control::Implicit(_) => smooth(system, q, request),
-            Control::Stiff(relative, absolute, largest) => match self.rosenbrock {
-                Some(stepper) => stepper(system, request, (relative, absolute, largest)),
-                None => Err(lacks("rosenbrock", "linearize")),
-            },
-            Control::Taylor(relative, absolute, largest) => match self.taylor {
-                Some(stepper) => stepper(system, request, (relative, absolute, largest)),
-                None => Err(lacks("taylor", "taylor")),
-            },
-            Control::ContactEvents(..) | Control::ContactSteps(..) => match &self.contacts {
-                Some(contacts) => (contacts.run)(system, request),
-                None => Err(no_contacts()),
-            },
+        match (request.control, &self.contacts) {
+            (Control::Smooth(..), _) => (self.smooth)(system, request),
+            (_, Some(contacts)) => (contacts.run)(system, request),
+            (_, None) => Err(no_contacts()),
         }
     }
 }
 
-impl<S: System<Scalar = f64>> Default for Methods<S> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-/// A run by a method that every system has.
+/// A run by a method that was chosen by name.
 ///
 /// # Errors
-/// Another method; times of a controller that are no multiples of the step.
-pub fn smooth<S: Moving>(system: &S, q: S::Configuration, request: &Request<'_>) -> Result<Outcome, String> {
-    let system = &stoppable(system, request);
-    match request.control {
-        Control::Adaptive(relative, absolute, largest) => {
-            let control = looking(Adaptive::new(relative, absolute), request.input);
-            run(system, q, request, bounded(control, largest, Adaptive::largest_step))
-        }
-        Control::Fixed(step) => run(system, q, request, Fixed::new(step)),
-        Control::Implicit(step) => run(system, q, request, Fixed::by(Collocation::order_6(), step)),
-        Control::Stiff(..) => Err(lacks("rosenbrock", "linearize")),
-        Control::Taylor(..) => Err("the method taylor is one of compiled kernels".to_owned()),
-        Control::ContactEvents(..) | Control::ContactSteps(..) => Err(no_contacts()),
-    }
-}
-
-/// A run by Rosenbrock's method.
-///
-/// # Errors
-/// Times of a controller that are no multiples of the step.
-pub fn stiff<S: Moving + LinearizedSystem>(
-    system: &S,
-    q: S::Configuration,
-    request: &Request<'_>,
-    (relative, absolute, largest): Tolerances,
-) -> Result<Outcome, String> {
-    let control = looking(Adaptive::by(Rosenbrock, relative, absolute), request.input);
-    run(&stoppable(system, request), q, request, bounded(control, largest, Adaptive::largest_step))
+/// A method that needs a clause, or contacts; times of a controller that are no multiples of the step.
+pub fn smooth<'a, S: Moving, R, P>(system: &'a S, q: S::Configuration, request: &Request<'a>) -> Result<Outcome, String>
+where
+    R: MethodPlace<Rosenbrock> + EstimatingStep<Stoppable<'a, S>>,
+    P: MethodPlace<Taylor> + Steps<Stoppable<'a, S>>,
+{
+    let Control::Smooth(method, setting) = request.control else { return Err(no_contacts()) };
+    let control: MethodControl<f64, R, P> = method.control(setting).map_err(|error| match error {
+        MethodError::Clause(method, clause) => lacks(method.name(), clause),
+        other => other.to_string(),
+    })?;
+    let within = request.input.changes_within();
+    let control = if within.is_finite() { control.input_changes_within(within) } else { control };
+    run(&Stoppable::new(system, request.stop), q, request, control)
 }
 
 /// Message that a run with contacts needs some.
@@ -165,14 +116,6 @@ pub fn lacks(method: &str, clause: &str) -> String {
         "the method {method} needs `#[gauss({clause})]` at the struct, which does not say it; models of `gauss.load` \
          take `clauses=[\"{clause}\"]`"
     )
-}
-
-fn stoppable<'a, S>(system: &'a S, request: &Request<'a>) -> Stoppable<'a, S> {
-    Stoppable::new(system, request.stop)
-}
-
-fn bounded<C>(control: C, largest: f64, bound: impl Fn(C, f64) -> C) -> C {
-    if largest.is_finite() { bound(control, largest) } else { control }
 }
 
 /// A run by any method.

@@ -3,22 +3,14 @@
 use std::sync::atomic::AtomicBool;
 
 use gauss_contact::{Impact, StepLaw, StepScheme};
-use gauss_runtime::integrate::Adaptive;
+use gauss_runtime::integrate::{Adaptive, Method, StepSetting};
 use gauss_runtime::prelude::{Crossing, Real, VectorSpace};
 
 /// The method and its choice of steps. Three numbers are the relative and the absolute tolerance, and the longest step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Control {
-    /// Dormand and Prince of order 8, as long as tolerances allow.
-    Adaptive(f64, f64, f64),
-    /// The same, of one length.
-    Fixed(f64),
-    /// Collocation at the points of Gauss, implicit, of order 6, of one length.
-    Implicit(f64),
-    /// Rosenbrock's method of order 4, linearly implicit, as long as tolerances allow.
-    Stiff(f64, f64, f64),
-    /// Power series, as long as tolerances allow.
-    Taylor(f64, f64, f64),
+    /// A method by name, without contacts.
+    Smooth(Method, StepSetting<f64>),
     /// Contacts from event to event, by the first method between them and this law of impacts.
     ContactEvents(f64, f64, f64, Impact),
     /// Contacts in steps of one length, or at most as long with a relative and an absolute tolerance.
