@@ -1,40 +1,75 @@
-//! The methods of Gauss, one line each. What no forces act on has more of them in `free_motion`.
+//! The methods of Gauss: the table of the runtime, and one line for each that is not in it. What no forces act on has
+//! more of them in `free_motion`.
 
 use gauss_exact::BodyConfiguration;
 use gauss_exact::{Scheme, Splitting, SplittingError};
 use gauss_exact::{TopError, TopFlow};
-use gauss_runtime::integrate::{Adams, Composed, Composition, Fixed, Form, Variational};
+use gauss_runtime::integrate::{Composed, Composition, Fixed, Form, Method, MethodControl, StepSetting, Variational};
 use gauss_runtime::prelude::*;
 
 use super::counted::Counted;
 use super::entry::{Entry, Kernel, Setting, Setup};
 
-/// The explicit methods, in both forms: for every chart.
+/// The methods of the table that are run on every chart; all others are for the chart that suits the scene best.
+const EVERYWHERE: [Method; 5] =
+    [Method::Classical4, Method::DormandPrince8, Method::Adams10, Method::Adams12, Method::Verner9];
+
+/// Those methods, in both forms: for every chart.
 pub fn explicit<S: Kernel>(entries: &mut Vec<Entry>, setup: &Setup<S>) {
-    explicit_in(entries, setup, ("velocity", VelocityForm));
-    explicit_in(entries, setup, ("momentum", MomentumForm));
+    by_name(entries, setup, |method| EVERYWHERE.contains(&method));
 }
 
-fn explicit_in<S: Kernel, F: Form<Counted<S>> + 'static>(
-    entries: &mut Vec<Entry>,
-    s: &Setup<S>,
-    form: (&'static str, F),
-) {
-    use Setting::{Step, Tolerance};
-    entries.extend([
-        s.entry(("RK 4", Step(4)), form, |h| Fixed::by(RungeKutta(Classical4), h)),
-        s.entry(("DP 8, fixed", Step(8)), form, |h| Fixed::by(RungeKutta(DormandPrince8), h)),
-        s.entry(("Adams 10", Step(9)), form, Adams::<_, 10>::new),
-        s.entry(("Adams 12", Step(9)), form, Adams::<_, 12>::new),
-        s.entry(("DP 8", Tolerance), form, |tolerance| Adaptive::by(RungeKutta(DormandPrince8), tolerance, tolerance)),
-        s.entry(("Verner 9(8)", Tolerance), form, |tolerance| Adaptive::by(RungeKutta(Verner9), tolerance, tolerance)),
-    ]);
-}
-
-/// Order 5, the methods in the algebra, and those that keep something: for the chart that suits the scene best.
+/// All other methods of the table, those in the algebra, and a composition: for the chart that suits the scene best.
 pub fn further<S: Kernel>(entries: &mut Vec<Entry>, setup: &Setup<S>) {
+    by_name(entries, setup, |method| !EVERYWHERE.contains(&method));
     further_in(entries, setup, ("velocity", VelocityForm));
     further_in(entries, setup, ("momentum", MomentumForm));
+}
+
+fn by_name<S: Kernel>(entries: &mut Vec<Entry>, setup: &Setup<S>, wanted: impl Fn(Method) -> bool) {
+    for &method in Method::ALL.iter().filter(|&&method| method.clause().is_none() && wanted(method)) {
+        by_name_in(entries, setup, method, ("velocity", VelocityForm));
+        by_name_in(entries, setup, method, ("momentum", MomentumForm));
+    }
+}
+
+fn by_name_in<S: Kernel, F: Form<Counted<S>> + 'static>(
+    entries: &mut Vec<Entry>,
+    s: &Setup<S>,
+    method: Method,
+    form: (&'static str, F),
+) {
+    let of_length = move |h| MethodControl::<f64>::new(method, StepSetting::Equal(h)).expect("steps of one length");
+    let tolerant = move |tolerance| {
+        MethodControl::<f64>::new(method, StepSetting::tolerant(tolerance, tolerance)).expect("an estimate of errors")
+    };
+    if method.takes_length() {
+        let setting = Setting::Step(method.order().expect("an order of steps of one length"));
+        entries.push(s.entry((label(method, true), setting), form, of_length));
+    }
+    if method.keeps_tolerances() {
+        entries.push(s.entry((label(method, false), Setting::Tolerance), form, tolerant));
+    }
+}
+
+/// Short names for plots, with steps of one length or not.
+fn label(method: Method, fixed: bool) -> &'static str {
+    match (method, fixed) {
+        (Method::Classical4, _) => "RK 4",
+        (Method::CommutatorFree4, _) => "CF 4",
+        (Method::DormandPrince5, true) => "DP 5, fixed",
+        (Method::DormandPrince5, false) => "DP 5(4)",
+        (Method::DormandPrince8, true) => "DP 8, fixed",
+        (Method::DormandPrince8, false) => "DP 8",
+        (Method::Verner9, true) => "Verner 9, fixed",
+        (Method::Verner9, false) => "Verner 9(8)",
+        (Method::Collocation2, _) => "Gauss 2",
+        (Method::Collocation4, _) => "Gauss 4",
+        (Method::Collocation6, _) => "Gauss 6",
+        (Method::Adams10, _) => "Adams 10",
+        (Method::Adams12, _) => "Adams 12",
+        (other, _) => other.name(),
+    }
 }
 
 fn further_in<S: Kernel, F: Form<Counted<S>> + 'static>(
@@ -44,18 +79,10 @@ fn further_in<S: Kernel, F: Form<Counted<S>> + 'static>(
 ) {
     use Setting::{Step, Tolerance};
     entries.extend([
-        s.entry(("DP 5, fixed", Step(5)), form, |h| Fixed::by(RungeKutta(DormandPrince5), h)),
-        s.entry(("DP 5(4)", Tolerance), form, |tolerance| {
-            Adaptive::by(RungeKutta(DormandPrince5), tolerance, tolerance)
-        }),
         s.entry(("RKMK 4", Step(4)), form, |h| Fixed::with(&Tableau::RK4, h)),
         s.entry(("RKMK 8", Tolerance), form, |tolerance| {
             Adaptive::with(&Tableau::DORMAND_PRINCE_8, tolerance, tolerance)
         }),
-        s.entry(("CF 4", Step(4)), form, |h| Fixed::by(CommutatorFree4, h)),
-        s.entry(("Gauss 2", Step(2)), form, |h| Fixed::by(Collocation::midpoint(), h)),
-        s.entry(("Gauss 4", Step(4)), form, |h| Fixed::by(Collocation::order_4(), h)),
-        s.entry(("Gauss 6", Step(6)), form, |h| Fixed::by(Collocation::order_6(), h)),
         s.entry(("Kahan–Li 8 of Gauss 2", Step(8)), form, |h| {
             Fixed::by(Composed::new(&Composition::KAHAN_LI_8, Collocation::midpoint()), h)
         }),
