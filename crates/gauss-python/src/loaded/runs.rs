@@ -5,13 +5,13 @@
 //! those of the model's own numbers ([`System::share`]).
 
 use gauss_jit::{Kernel, MixedConfiguration, System, SystemWithContacts};
-use gauss_runtime::integrate::{Absent, MethodError, NoTaylor, StepSetting};
+use gauss_runtime::integrate::{Absent, NoTaylor, StepSetting};
 use gauss_runtime::prelude::{Configuration, GaussSystem, Rosenbrock, SVector};
 
 use crate::methods::Sizes;
 use crate::steps::{
     self, Control, Effect, Event, Held, InContact, Input, Jumped, Outcome, Request, Until, Watched, components,
-    no_contacts, numbers_of, smooth, touching, vector,
+    lacks, no_contacts, numbers_of, smooth, touching, vector,
 };
 
 /// A system with room for N numbers of each kind.
@@ -105,7 +105,7 @@ pub fn simulate(kernel: &Kernel, sizes: &Sizes, request: &Request<'_>) -> Result
     match method.clause() {
         Some("taylor") => return Err(format!("the method {method} is one of compiled kernels")),
         Some(clause) if !kernel.model().methods().any(|name| name == clause) => {
-            return Err(MethodError::Clause(method, clause).to_string());
+            return Err(lacks(method.name(), clause));
         }
         // Matrices over states of more are too large for the stacks of threads.
         None if least(sizes) > 64 => in_room!(kernel, least(sizes), |system| {

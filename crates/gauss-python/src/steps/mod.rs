@@ -17,7 +17,7 @@ pub use causes::words;
 pub use contacts::{at as in_contact, run as touching};
 pub use one::Methods;
 #[cfg(feature = "loaded")]
-pub use one::{no_contacts, smooth};
+pub use one::{lacks, no_contacts, smooth};
 pub use outcome::{Event, Happening, InContact, KINDS, Outcome, Touched, column_names};
 pub use request::{Control, Effect, Function, Held, Input, Jumped, Request, Table, Until, Watched, looking};
 pub use stoppable::Stoppable;
