@@ -14,7 +14,7 @@ use super::entry::{Entry, Kernel, Setting, Setup};
 const EVERYWHERE: [Method; 5] =
     [Method::Classical4, Method::DormandPrince8, Method::Adams10, Method::Adams12, Method::Verner9];
 
-/// Those methods, in both forms: for every chart.
+/// These methods in both forms: for every chart.
 pub fn explicit<S: Kernel>(entries: &mut Vec<Entry>, setup: &Setup<S>) {
     by_name(entries, setup, |method| EVERYWHERE.contains(&method));
 }
