@@ -31,9 +31,10 @@ use gauss_runtime::simd::Packed;
 
 /// A choice of steps that can be made for every lane by itself:
 /// [`Adaptive`](gauss_runtime::integrate::Adaptive) by any method that estimates its error,
-/// [`Taylor`](gauss_runtime::integrate::Taylor), [`Fixed`](gauss_runtime::integrate::Fixed) by any method, and
-/// [`Adams`](gauss_runtime::integrate::Adams); whatever is chosen by name of these, a
-/// [`MethodControl`](gauss_runtime::integrate::MethodControl). Its functions are for the runs of this crate, which alone implements it.
+/// [`Taylor`](gauss_runtime::integrate::Taylor), [`Fixed`](gauss_runtime::integrate::Fixed) by any method,
+/// [`Adams`](gauss_runtime::integrate::Adams), and what is chosen of these by name, a
+/// [`MethodControl`](gauss_runtime::integrate::MethodControl). Its functions are for the runs of this crate, which alone
+/// implements it.
 pub trait LaneControl<S: BatchSystem>: Control<S> + Sealed {
     /// Memory of the lanes from step to step.
     #[doc(hidden)]
