@@ -69,8 +69,9 @@ fn the_program_of_the_front_page_runs() -> Result<(), Box<dyn Error>> {
     let shown = page.replace("&amp;", "&").replace("&lt;", "<").replace("&gt;", ">");
     assert!(shown.contains(derived_struct(include_str!("site.rs")).trim()), "{shown}");
     let kernel = Pendulum { m: 1.0, l: 0.5, g: 9.81 }.kernel()?;
-    assert!(PendulumKernel::EQUATIONS.contains("angle"));
-    let run = Simulation::new(&kernel).adaptive(1e-10, 1e-12).run(Vector1::new(1.0), Vector1::new(0.0), 0.0..10.0)?;
+    assert!(PendulumKernel::EQUATIONS.text.contains("angle"));
+    let run =
+        Simulation::new(&kernel).adaptive(1e-10, 1e-12).run(SVector::from([1.0]), SVector::from([0.0]), 0.0..10.0)?;
     // The energy at rest, −m g l cos 1: 1e-10 of it a step, in some hundred steps.
     let (end, start) = (run.last(), -9.81 * 0.5 * 1.0_f64.cos());
     let energy = 0.5 * (0.5 * end.z[0]).powi(2) - 9.81 * 0.5 * end.q[0].cos();

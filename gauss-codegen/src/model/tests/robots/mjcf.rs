@@ -126,7 +126,8 @@ fn what_is_told_and_refused() {
             "",
             Some(
                 "3:9: the link `body_2` moves, and neither it nor what hangs on it has an <inertial>; add one, \
-                 give its joint an `armature`, or fix it",
+                 give its joint an `armature`, or fix it (the mass of \
+                 <geom> is not read: a <geom> of type `mesh` needs its mesh or sizes)",
             ),
         ),
     ];
