@@ -29,7 +29,7 @@ mod translate;
 mod words;
 
 pub use algebra::Notation;
-pub use derivation::Derivation;
+pub use derivation::{Bodies, Derivation, LinkData, LinkKind};
 pub use emit::fallback;
 pub use expand::{expand, expand_without_vectors};
 pub use model::item;

@@ -82,6 +82,13 @@ impl Kernel {
         Ok(kernel)
     }
 
+    /// The numbers that programs of parameters read, of those that the kernel was made of.
+    #[cfg(feature = "mjcf")]
+    pub(crate) fn numbers(&self, parameters: &[(&str, &[f64])]) -> Result<Vec<f64>, KernelError> {
+        let all = numbers_of(self.model.parameters(), parameters, Vec::new()).map_err(KernelError::Given)?;
+        Ok(self.model.derived.data.parameters.read.iter().map(|&k| all[k]).collect())
+    }
+
     /// Mass matrices at a few configurations of general position: turns of any size, and lengths and coordinates from a
     /// thousandth to a thousand.
     fn mass_matrices(&self) -> Result<[Vec<f64>; 4], KernelError> {

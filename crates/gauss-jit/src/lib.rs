@@ -5,7 +5,7 @@
 // functions that generated code calls), `configuration` (groups that are known at run time), `tables` (arrays of
 // tables), `kernel` (methods by name), `rows` (the same of many states), `system` (for `Simulation`, with room that the
 // program says), `contacts` (for runs with contacts, with room for their rows), `cache` (a folder of derivations),
-// `names` (what outlives models), `error`; `backends`: `cranelift` (programs → machine code), `lanes` (the same for
+// `names` (what outlives models), `mjcf` (scenes as files of MuJoCo), `error`; `backends`: `cranelift` (programs → machine code), `lanes` (the same for
 // several rows at once), `machine` (their memory and their calls: the only `unsafe`), `interpreter`, `functions` that
 // all call.
 mod backends;
@@ -16,6 +16,8 @@ mod configuration;
 mod contacts;
 mod error;
 mod kernel;
+#[cfg(feature = "mjcf")]
+mod mjcf;
 mod model;
 mod names;
 mod rows;
@@ -34,6 +36,8 @@ pub use gauss_codegen::description::{ContactDescription, Description, Quantity, 
 pub use gauss_codegen::program::{Functions, UnknownMethods};
 pub use gauss_codegen::{Clause, Field, Notation, Scene, targets};
 pub use kernel::{Kernel, Method};
+#[cfg(feature = "mjcf")]
+pub use mjcf::{Mjcf, MjcfError};
 pub use model::Model;
 #[doc(hidden)]
 pub use names::{kept, kept_axes};

@@ -1,5 +1,6 @@
 //! The public face of the pipeline: a struct in; programs, equations and Rust out.
 
+mod bodies;
 mod description;
 #[cfg(test)]
 mod elements_tests;
@@ -32,6 +33,7 @@ use crate::program::{Functions, Program};
 use crate::scene::{Mistake, Scene};
 use crate::words::Unraw;
 
+pub use bodies::{Bodies, LinkData, LinkKind};
 use methods::programs;
 use signature::Signature;
 

@@ -86,6 +86,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             constraints: formulation.constraints(),
             can_drift: formulation.can_drift(),
             quaternions: &formulation.quaternions,
+            definitions: &formulation.definitions,
         };
         let (runtime, module) = (&provenance.item.runtime, Ident::new(PRIVATE, Span::call_site()));
         let mut derived = Self {

@@ -4,7 +4,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::algebra::Expr;
+use crate::algebra::{Expr, Map};
 use crate::description::ContactDescription;
 use crate::mechanics::{Constraints, Coordinate, Method, System};
 use crate::translate::Provenance;
@@ -22,6 +22,8 @@ pub struct Subject<'a, 'g> {
     pub can_drift: bool,
     /// Components x, y, z, w of the unit quaternions behind rotations, one for each coordinate.
     pub quaternions: &'a [Option<[Expr<'g>; 4]>],
+    /// Entries of their matrices in terms of these.
+    pub definitions: &'a Map<u32, Expr<'g>>,
 }
 
 /// A factor of the configuration: elements of groups in the order in which they are declared, then all scalars

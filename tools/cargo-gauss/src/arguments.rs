@@ -28,7 +28,7 @@ pub enum Command {
 /// Which struct, and what of it.
 #[derive(Args)]
 pub struct Show {
-    /// A Rust file.
+    /// A Rust file; with `mjcf` also one of a robot, URDF or MJCF.
     pub file: PathBuf,
     /// Names of structs in it; without any, all structs with `#[derive(GaussDynamics)]`.
     pub names: Vec<String>,
@@ -45,6 +45,12 @@ pub struct Show {
     /// Numbers are of single precision, with `c` and `header`.
     #[arg(long)]
     pub single: bool,
+    /// With `mjcf`: a parameter in its unit, `m=1.5`; of vectors and matrices all numbers; several times.
+    #[arg(long)]
+    pub set: Vec<String>,
+    /// With `mjcf`, of a robot's file: a further clause, such as `base = floating`; several times.
+    #[arg(long)]
+    pub clause: Vec<String>,
     /// Writes to this file in place of the terminal.
     #[arg(long, short)]
     pub output: Option<PathBuf>,
@@ -68,6 +74,8 @@ pub enum Form {
     Cpp,
     /// C99 with derivatives, for `external` of CasADi.
     Casadi,
+    /// A model of MuJoCo, by the numbers of `--set`, with comments about what MuJoCo does in another way.
+    Mjcf,
     /// What the derive writes.
     Rust,
     /// Functions of `f64` in Rust that need nothing else.

@@ -13,7 +13,7 @@ use crate::arguments::New;
 use crate::{python, robots, show, structs};
 
 /// Acceleration of free fall, in m/s², of robots where nothing else is given.
-const GRAVITY: f64 = 9.81;
+pub const GRAVITY: f64 = 9.81;
 
 /// Writes the FMU, and says for which platform it has a binary.
 ///
@@ -30,7 +30,7 @@ pub fn create(wanted: &New) -> Result<(), String> {
             }
             of_robot(robot, &own.clause)?
         }
-        (None, Some(scene)) => of_scene(scene, own.of.as_deref())?,
+        (None, Some(scene)) => of_scene(scene, own.of.as_deref(), "`--of NAME`")?,
         (None, None) => {
             return Err("`--robot FILE` or `--scene FILE.rs`: an FMU is one of a robot or of a scene".to_owned());
         }
@@ -59,13 +59,14 @@ pub fn create(wanted: &New) -> Result<(), String> {
 }
 
 /// `name=1,2,3`.
-fn numbers(text: &str) -> Result<(&str, Vec<f64>), String> {
+pub fn numbers(text: &str) -> Result<(&str, Vec<f64>), String> {
     let (name, list) = text.split_once('=').ok_or_else(|| format!("`{text}`: write `name=number`"))?;
     let number = |word: &str| word.trim().parse::<f64>().map_err(|_| format!("`{text}`: `{word}` is no number"));
     Ok((name.trim(), list.split(',').map(number).collect::<Result<_, _>>()?))
 }
 
-fn of_robot(file: &Path, clauses: &[String]) -> Result<String, String> {
+/// The text of a struct of a robot's file, with the acceleration of free fall for a field.
+pub fn of_robot(file: &Path, clauses: &[String]) -> Result<String, String> {
     let format = python::format_of(file)?;
     let whole = file.canonicalize().map_err(|error| format!("{}: {error}", file.display()))?;
     let clauses: String = clauses.iter().map(|clause| format!(", {clause}")).collect();
@@ -77,8 +78,9 @@ fn of_robot(file: &Path, clauses: &[String]) -> Result<String, String> {
     ))
 }
 
-/// The text of the struct. It is derived here for its mistakes, which have their places in the file.
-fn of_scene(file: &Path, name: Option<&str>) -> Result<String, String> {
+/// The text of the struct. It is derived here for its mistakes, which have their places in the file. `how` says how one
+/// of several is chosen.
+pub fn of_scene(file: &Path, name: Option<&str>, how: &str) -> Result<String, String> {
     let text = fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))?;
     let located = |mistakes: Error| show::located(file, &mistakes);
     let tokens = text.parse::<TokenStream>().map_err(|error| located(Error::new(error.span(), "this is no Rust")))?;
@@ -86,11 +88,7 @@ fn of_scene(file: &Path, name: Option<&str>) -> Result<String, String> {
     let mut items = structs::find(tokens, &names).map_err(located)?;
     if items.len() > 1 {
         let names: Vec<String> = items.iter().map(|item| item.ident.to_string()).collect();
-        return Err(format!(
-            "{}: it has several structs; `--of NAME` takes one of {}",
-            file.display(),
-            names.join(", ")
-        ));
+        return Err(format!("{}: it has several structs; {how} takes one of {}", file.display(), names.join(", ")));
     }
     let Some(mut item) = items.pop() else { return Err(format!("{}: it has no struct", file.display())) };
     if let Some(package) = robots::package_of(file) {

@@ -4,6 +4,7 @@ mod arguments;
 mod charts;
 mod create;
 mod fmu;
+mod mjcf;
 mod package;
 mod page;
 mod python;

@@ -12,7 +12,7 @@ use syn::{DeriveInput, Error};
 use crate::arguments::{Form, Show};
 use crate::charts::in_chart;
 use crate::shown::{Shown, loss};
-use crate::{page, robots, structs};
+use crate::{mjcf, page, robots, structs};
 
 /// Prints it, or writes it to a file.
 ///
@@ -24,6 +24,12 @@ pub fn show(wanted: &Show) -> Result<(), String> {
     }
     if wanted.single && !matches!(wanted.form, Form::C | Form::Header) {
         return Err("`--single` goes with `--as c` and `header`; functions of `--as cpp` take any type".to_owned());
+    }
+    if wanted.form == Form::Mjcf {
+        return put(wanted, mjcf::document(wanted)?);
+    }
+    if !(wanted.set.is_empty() && wanted.clause.is_empty()) {
+        return Err("`--set` and `--clause` go with `--as mjcf`; all other forms keep their parameters".to_owned());
     }
     let file = wanted.file.display().to_string();
     let source = fs::read_to_string(&wanted.file).map_err(|error| format!("{file}: {error}"))?;
@@ -40,6 +46,11 @@ pub fn show(wanted: &Show) -> Result<(), String> {
         Form::Html => page::html(&file, &all),
         _ => all.iter().map(|shown| text(shown, wanted)).collect::<Result<Vec<_>, _>>()?.join("\n"),
     };
+    put(wanted, text)
+}
+
+/// Prints a text, or writes it to the file that is wanted, whole or not at all.
+fn put(wanted: &Show, text: String) -> Result<(), String> {
     match &wanted.output {
         Some(path) => gauss_files::write(path, text).map_err(|error| format!("{}: {error}", path.display())),
         None => {
@@ -95,7 +106,8 @@ fn text(shown: &Shown, wanted: &Show) -> Result<String, String> {
         // A derivation of a struct has it.
         Form::Rust => pretty(derivation.rust().cloned().unwrap_or_default()),
         Form::Functions => pretty(targets::rust::source(&functions)),
-        Form::Html => Ok(String::new()),
+        // These are no texts of one struct after another.
+        Form::Html | Form::Mjcf => Ok(String::new()),
     }
 }
 

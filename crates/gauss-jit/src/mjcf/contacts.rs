@@ -1,0 +1,209 @@
+//! Ranges of joints, dry friction of joints, and points and spheres above planes that stand still.
+
+use gauss_codegen::LinkKind;
+use gauss_codegen::description::ContactDescription;
+use gauss_runtime::nalgebra::{DMatrix, DVector, Vector3};
+
+use super::masses::STATES;
+use super::numbers::{SceneNumbers, Sequence, Value, are_small, shortest};
+use super::parts::{Parts, SphereOnPlane};
+use super::tree::{JointTree, ROUNDING};
+
+/// The radius of what touches as a point: MuJoCo has no geoms without size.
+const POINT: f64 = 1e-6;
+
+/// A state with all numbers of contacts.
+struct ContactState {
+    values: Vec<Value>,
+    gaps: Vec<f64>,
+    friction: Vec<f64>,
+    rows: DMatrix<f64>,
+    frames: Vec<f64>,
+}
+
+/// Reads contacts.
+pub struct Contacts<'a> {
+    scene: &'a SceneNumbers,
+    tree: &'a JointTree,
+    parts: &'a mut Parts,
+    list: Vec<ContactDescription>,
+    states: Vec<ContactState>,
+}
+
+impl<'a> Contacts<'a> {
+    pub fn new(scene: &'a SceneNumbers, tree: &'a JointTree, parts: &'a mut Parts) -> Self {
+        let list = scene.kernel.model().description().contacts.clone();
+        let mut sequence = Sequence::new();
+        let origin = std::iter::once(scene.origin());
+        let states = if list.is_empty() {
+            Vec::new()
+        } else {
+            let all = origin.chain((0..STATES).map(|_| scene.sample(&mut sequence)));
+            all.enumerate().filter_map(|(k, values)| state(scene, 0.3 * k as f64, values)).collect()
+        };
+        Self { scene, tree, parts, list, states }
+    }
+
+    pub fn add(mut self) {
+        let (mut row, mut vector) = (0, 0);
+        for (k, own) in self.list.clone().iter().enumerate() {
+            let found = self.range(k, row, own) || self.dry(row, own) || self.sphere(k, (row, vector), own);
+            let is_rolling =
+                own.rolls_on.is_some() && self.parts.contacts.iter().any(|known| own.name.starts_with(&known.name));
+            if !found && !is_rolling {
+                self.parts.mistakes.push(format!(
+                    "the contact `{}` has no counterpart: it is no range or dry friction of one joint, and no point or \
+                     sphere of a body above a plane that stands still",
+                    own.name
+                ));
+            }
+            row += own.rows();
+            vector += if own.axes > 0 { 1 + own.axes } else { 0 };
+        }
+        if !self.list.is_empty() {
+            self.parts.lost.push(
+                "contacts, ranges and dry friction are exact here and soft in MuJoCo, by `solref` and `solimp`"
+                    .to_owned(),
+            );
+        }
+        let bounces = self.scene.kernel.call("restitution", &[&[0.0], &self.scene.configuration(&self.scene.origin())]);
+        if bounces.is_ok_and(|all| all.iter().any(|e| *e != 0.0)) {
+            self.parts.lost.push("restitution is lost: in MuJoCo a contact bounces by `solref`".to_owned());
+        }
+    }
+
+    /// A gap that is `±q + c` of one joint.
+    fn range(&mut self, k: usize, row: usize, own: &ContactDescription) -> bool {
+        if !own.has_gap || own.rows() != 1 {
+            return false;
+        }
+        let Some(first) = self.states.first() else { return false };
+        let Some((variable, sign)) = self.single(row) else { return false };
+        let bound = first.gaps[k] - sign * first.values[variable].scalar();
+        let fits = |state: &ContactState| {
+            (state.gaps[k] - bound - sign * state.values[variable].scalar()).abs() <= ROUNDING * (1.0 + bound.abs())
+        };
+        if (sign.abs() - 1.0).abs() > ROUNDING || !self.states.iter().all(fits) {
+            return false;
+        }
+        // q ≥ −c, or q ≤ c: the narrower one of several.
+        let bound = -sign * bound;
+        let range = &mut self.parts.joints[variable].range[usize::from(sign < 0.0)];
+        *range = Some(range.map_or(bound, |known| if sign > 0.0 { known.max(bound) } else { known.min(bound) }));
+        true
+    }
+
+    /// The joint, a scalar, that alone moves a row, and its constant coefficient.
+    fn single(&self, row: usize) -> Option<(usize, f64)> {
+        let first: DVector<f64> = self.states.first()?.rows.column(row).into_owned();
+        let moved =
+            |k: &usize| self.scene.variables[*k].rates().any(|place| first[place].abs() > ROUNDING * first.amax());
+        let moved: Vec<usize> = (0..self.scene.variables.len()).filter(moved).collect();
+        let [variable] = moved[..] else { return None };
+        let same = self
+            .states
+            .iter()
+            .all(|state| are_small((state.rows.column(row) - &first).iter(), ROUNDING * first.amax()));
+        (self.scene.variables[variable].is_scalar() && same)
+            .then(|| (variable, first[self.scene.variables[variable].rate]))
+    }
+
+    /// Dry friction of one joint.
+    fn dry(&mut self, row: usize, own: &ContactDescription) -> bool {
+        if own.has_gap || own.rolls_on.is_some() || own.rows() != 1 {
+            return false;
+        }
+        let Some((variable, factor)) = self.single(row) else { return false };
+        let bound = self.states[0].friction[row];
+        let fits = self.states.iter().all(|state| (state.friction[row] - bound).abs() <= ROUNDING * bound.abs());
+        if fits {
+            self.parts.joints[variable].friction_loss += factor.abs() * bound;
+        }
+        fits
+    }
+
+    /// A sphere, or a point, whose contact is at `c − r n` of a plane that stands still.
+    fn sphere(&mut self, k: usize, (row, vector): (usize, usize), own: &ContactDescription) -> bool {
+        let Some(first) = self.states.first() else { return false };
+        let known = |name: &String| self.scene.bodies.list.iter().position(|body| body.name == *name);
+        let (Some(body), None) = (own.bodies[0].as_ref().and_then(known), &own.bodies[1]) else { return false };
+        if !own.has_gap || own.axes == 0 || self.scene.bodies.list[body].kind == LinkKind::Particle {
+            return false;
+        }
+        let at = |state: &ContactState, k: usize| {
+            Vector3::from_column_slice(&state.frames[3 * (vector + k)..3 * (vector + k) + 3])
+        };
+        let (normal, height) = (at(first, 1), at(first, 1).dot(&at(first, 0)) - first.gaps[k]);
+        let (mut rows, mut given) = (DMatrix::zeros(3 * self.states.len(), 4), DVector::zeros(3 * self.states.len()));
+        for (place, state) in self.states.iter().enumerate() {
+            let (point, own) = (at(state, 0), at(state, 1));
+            let moved = [(own - normal).norm(), own.dot(&point) - state.gaps[k] - height];
+            if !are_small(&moved, ROUNDING * (1.0 + point.norm())) {
+                return false;
+            }
+            // In the axes of the body: c − r n is the point.
+            let pose = self.tree.displacement(self.tree.carriers[body], &state.values) * self.tree.places[body];
+            let seen = pose.rotation.inverse() * (point - pose.translation.vector);
+            rows.view_mut((3 * place, 0), (3, 3)).fill_with_identity();
+            rows.view_mut((3 * place, 3), (3, 1)).copy_from(&-(pose.rotation.inverse() * normal));
+            given.rows_mut(3 * place, 3).copy_from(&seen);
+        }
+        let Ok(found) = rows.clone().svd(true, true).solve(&given, ROUNDING) else { return false };
+        let friction = |first: usize, count: usize| {
+            let all = self.states.iter().flat_map(|state| &state.friction[first..first + count]);
+            let (low, high) = all.fold((f64::INFINITY, 0.0_f64), |(low, high), x| (low.min(*x), high.max(*x)));
+            if count == 0 { Some(0.0) } else { (high - low <= ROUNDING * high).then_some(high) }
+        };
+        if !are_small((&rows * &found - &given).iter(), 100.0 * ROUNDING * (1.0 + given.amax())) {
+            return false;
+        }
+        let Some(slips) = friction(row + 1, own.tangents) else { return false };
+        let error = 1e-14 * (1.0 + given.amax());
+        let number = |x: f64| shortest(x, error);
+        let radius = Some(number(found[3])).filter(|r| *r > POINT);
+        if radius.is_none() {
+            self.parts
+                .lost
+                .push(format!("`{}` touches as a sphere of {POINT:e} m: MuJoCo has no points that touch", own.name));
+        }
+        let center = [found[0], found[1], found[2]].map(number);
+        let (normal, height) = ([normal.x, normal.y, normal.z], number(height));
+        let contact = SphereOnPlane {
+            name: own.name.clone(),
+            body,
+            center,
+            radius: radius.unwrap_or(POINT),
+            normal,
+            height,
+            friction: slips,
+        };
+        self.parts.contacts.push(contact);
+        if own.drills || self.list.iter().any(|other| other.rolls_on == Some(k)) {
+            self.parts.lost.push(format!("friction of drilling and rolling of `{}` is lost", own.name));
+        }
+        true
+    }
+}
+
+fn state(scene: &SceneNumbers, t: f64, values: Vec<Value>) -> Option<ContactState> {
+    let q = scene.configuration(&values);
+    let (z, u) = (vec![0.0; scene.rates_by_speeds(&values).ncols()], vec![0.0; scene.inputs.len()]);
+    let call = |method: &str| {
+        let count = scene.kernel.model().arguments(method).ok()?.len();
+        scene.kernel.call(method, &[&[t][..], &q, &z, &u][..count]).ok()
+    };
+    let rows = scene.contact_forces(&values)?;
+    let (gaps, friction) = (call("gaps").unwrap_or_default(), call("friction").unwrap_or_default());
+    let (count, contacts) = (rows.ncols(), scene.kernel.model().description().contacts.len());
+    let padded = |mut list: Vec<f64>, count: usize| {
+        list.resize(count, 0.0);
+        list
+    };
+    Some(ContactState {
+        gaps: padded(gaps, contacts),
+        friction: padded(friction, count),
+        frames: call("contact_frames").unwrap_or_default(),
+        rows,
+        values,
+    })
+}

@@ -1,0 +1,184 @@
+//! Masses: what MuJoCo takes for an inertia, and armatures, which are what the mass matrix has beyond that of the bodies.
+
+use gauss_runtime::nalgebra::{DMatrix, DVector, Matrix3, Matrix3xX, Vector3};
+
+use super::numbers::{MassData, SceneNumbers, Sequence, Value, are_small, shortest};
+use super::tree::{JointTree, Motion, ROUNDING};
+
+/// The least mass and moment of inertia that a body with joints has in MuJoCo, some ten times its `mjMINVAL`.
+pub const LEAST: f64 = 1e-14;
+
+/// States of general position at which laws are tried.
+pub const STATES: usize = 4;
+
+/// Velocities of the O of a body and its angular velocities by the rates of joints, observer's axes, at its place.
+pub fn jacobian(tree: &JointTree, body: usize, values: &[Value], scene: &SceneNumbers) -> DMatrix<f64> {
+    let mut matrix = DMatrix::zeros(6, scene.rates());
+    let place = tree.displacement(tree.carriers[body], values) * tree.places[body];
+    let at = place.translation.vector;
+    let mut put = |column: usize, linear: Vector3<f64>, angular: Vector3<f64>| {
+        matrix.fixed_view_mut::<3, 1>(0, column).copy_from(&linear);
+        matrix.fixed_view_mut::<3, 1>(3, column).copy_from(&angular);
+    };
+    for k in tree.way(tree.carriers[body]) {
+        let before = tree.displacement(tree.parents[k], values);
+        let first = scene.variables[k].rate;
+        let units = [Vector3::x(), Vector3::y(), Vector3::z()].into_iter().enumerate();
+        match (&tree.motions[k], values[k]) {
+            (Motion::Slide { axis }, _) => put(first, before.rotation * axis, Vector3::zeros()),
+            (Motion::Hinge { axis, anchor }, _) => {
+                let (axis, arm) = (before.rotation * axis, at - (before.rotation * anchor + before.translation.vector));
+                put(first, axis.cross(&arm), axis);
+            }
+            (Motion::Ball(axes), Value::Rotation(turn)) => {
+                let moved = before * axes * turn;
+                units.for_each(|(i, unit)| {
+                    let axis = moved.rotation * unit;
+                    put(first + i, axis.cross(&(at - moved.translation.vector)), axis);
+                });
+            }
+            (Motion::Free(axes), Value::Pose(pose)) => {
+                let (still, moved) = (before * axes, before * axes * pose);
+                units.for_each(|(i, unit)| {
+                    put(first + i, still.rotation * unit, Vector3::zeros());
+                    let axis = moved.rotation * unit;
+                    put(first + 3 + i, axis.cross(&(at - moved.translation.vector)), axis);
+                });
+            }
+            // No motion has a value of another kind.
+            _ => {}
+        }
+    }
+    matrix
+}
+
+/// The armature of each rate: what the mass matrix has beyond that of the masses.
+///
+/// # Errors
+/// In a sentence each: what else has inertia.
+pub fn armatures(scene: &SceneNumbers, tree: &JointTree, masses: &[MassData]) -> Result<Vec<f64>, Vec<String>> {
+    let list = &scene.bodies.list;
+    let mistake = |own: &gauss_codegen::LinkData| {
+        let name = &own.name;
+        let fluid = "a fluid acts (`added_mass`, `displaced_mass`), in another way than MuJoCo's fluids";
+        own.in_fluid
+            .then(|| format!("on `{name}` {fluid}"))
+            .or(own.deforms.then(|| format!("`{name}` deforms (`modes`), which no body of MJCF does")))
+    };
+    let mistakes: Vec<String> = list.iter().filter_map(mistake).collect();
+    if !mistakes.is_empty() {
+        return Err(mistakes);
+    }
+    let refused = |text: &str| Err(vec![text.to_owned()]);
+    let mut sequence = Sequence::new();
+    let mut own: Option<Vec<f64>> = None;
+    for _ in 0..STATES {
+        let values = scene.sample(&mut sequence);
+        let Some(mut rest) = scene.mass_matrix(&values) else {
+            return refused(
+                "the speeds are fewer than the rates of the joints, or do not determine them: velocities are constrained \
+                 (`constraint(velocity = …)`, `independent`, `motion`), which has no counterpart",
+            );
+        };
+        let size = rest.amax();
+        (0..list.len()).for_each(|body| rest -= mass_matrix(scene, tree, &masses[body], (body, &values)));
+        let diagonal: Vec<f64> =
+            rest.diagonal().iter().map(|&a| if a.abs() <= ROUNDING * size { 0.0 } else { a }).collect();
+        rest.set_diagonal(&DVector::zeros(diagonal.len()));
+        let is_same = |before: &Vec<f64>| before.iter().zip(&diagonal).all(|(a, b)| (a - b).abs() <= ROUNDING * size);
+        if !(are_small(rest.iter(), ROUNDING * size)
+            && own.as_ref().is_none_or(is_same)
+            && diagonal.iter().all(|a| *a >= 0.0))
+        {
+            return refused(
+                "the kinetic energy has more than that of bodies and of an armature at each joint, such as a rotor that \
+                 several joints turn",
+            );
+        }
+        own = own.or(Some(diagonal.iter().map(|a| shortest(*a, 1e-14 * size)).collect()));
+    }
+    Ok(own.unwrap_or_default())
+}
+
+fn mass_matrix(
+    scene: &SceneNumbers,
+    tree: &JointTree,
+    data: &MassData,
+    (body, values): (usize, &[Value]),
+) -> DMatrix<f64> {
+    let place = tree.displacement(tree.carriers[body], values) * tree.places[body];
+    let rotation = place.rotation.to_rotation_matrix();
+    let rows = jacobian(tree, body, values, scene);
+    let angular: Matrix3xX<f64> = Matrix3xX::from_fn(rows.ncols(), |i, j| rows[(3 + i, j)]);
+    let arm = (place.rotation * data.center).cross_matrix();
+    let linear: Matrix3xX<f64> = Matrix3xX::from_fn(rows.ncols(), |i, j| rows[(i, j)]) - arm * &angular;
+    let inertia = rotation.matrix() * data.inertia * rotation.matrix().transpose();
+    let sum = linear.transpose() * &linear * data.mass + angular.transpose() * (inertia * &angular);
+    DMatrix::from_fn(rows.ncols(), rows.ncols(), |i, j| sum[(i, j)])
+}
+
+/// Mass data that MuJoCo takes, in place of those of a body that turns about one axis alone, or not at all, or has none.
+/// Whatever of it changes the motion is told.
+///
+/// # Errors
+/// An inertia that no body has, in a sentence.
+pub fn taken(
+    scene: &SceneNumbers,
+    tree: &JointTree,
+    (body, is_carrier): (usize, bool),
+    data: &MassData,
+    lost: &mut Vec<String>,
+) -> Result<MassData, String> {
+    let name = &scene.bodies.list[body].name;
+    let mut data = *data;
+    let least = if is_carrier { LEAST } else { 0.0 };
+    let moments = data.inertia.symmetric_eigenvalues();
+    let (small, large) = (moments.min(), moments.max());
+    let holds = moments.sum() - large >= large * (1.0 - ROUNDING);
+    if small >= least && holds && data.mass >= least {
+        return Ok(data);
+    }
+    let axes = axes_of_turns(scene, tree, body);
+    let first = axes.iter().copied().max_by(|a, b| a.norm().total_cmp(&b.norm())).unwrap_or_default();
+    let about_one = axes.iter().all(|axis| axis.cross(&first).norm() <= ROUNDING);
+    let mut told = false;
+    if first.norm() <= ROUNDING {
+        data.inertia = Matrix3::identity() * least;
+    } else if about_one {
+        let axis = first.normalize();
+        let moment = axis.dot(&(data.inertia * axis));
+        told = moment < least;
+        data.inertia = Matrix3::identity() * moment.max(least);
+    } else if holds || large <= LEAST {
+        told = true;
+        data.inertia += Matrix3::identity() * (least - small.min(0.0));
+    } else {
+        return Err(format!("the inertia of `{name}` breaks the triangle inequality, which MuJoCo does not waive"));
+    }
+    if data.mass < least {
+        data.mass = least;
+        told = true;
+    }
+    if told && least > 0.0 {
+        lost.push(format!(
+            "`{name}` has {least:e} kg or kg m² in the place of 0: MuJoCo wants mass and inertia of what moves"
+        ));
+    }
+    Ok(data)
+}
+
+/// Angular velocities by rates of joints, in the axes of the body.
+fn axes_of_turns(scene: &SceneNumbers, tree: &JointTree, body: usize) -> Vec<Vector3<f64>> {
+    let mut sequence = Sequence::new();
+    let mut axes = Vec::new();
+    for _ in 0..STATES {
+        let values = scene.sample(&mut sequence);
+        let place = tree.displacement(tree.carriers[body], &values) * tree.places[body];
+        // The axes of a particle have no meaning: they stay those of what carries it.
+        let columns = jacobian(tree, body, &values, scene);
+        let column =
+            |k: usize| place.rotation.inverse() * Vector3::new(columns[(3, k)], columns[(4, k)], columns[(5, k)]);
+        axes.extend((0..columns.ncols()).map(column));
+    }
+    axes
+}

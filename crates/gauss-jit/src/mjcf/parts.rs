@@ -1,0 +1,75 @@
+//! What of a scene MJCF writes beside its bodies: attributes of joints, tendons, actuators, contacts.
+
+/// Attributes of a joint beside its place.
+#[derive(Clone, Debug, Default)]
+pub struct JointAttributes {
+    pub stiffness: f64,
+    /// The force of springs where the joint is at 0.
+    pub force: f64,
+    pub damping: f64,
+    pub armature: f64,
+    pub friction_loss: f64,
+    pub range: [Option<f64>; 2],
+}
+
+/// A sum of coordinates of joints, with a spring, a damper or both, or none where an actuator alone acts on it.
+#[derive(Clone, Debug, Default)]
+pub struct Tendon {
+    pub name: String,
+    /// Variables with their coefficients.
+    pub coefficients: Vec<(usize, f64)>,
+    pub stiffness: f64,
+    pub length: f64,
+    pub damping: f64,
+}
+
+/// What an actuator acts on.
+#[derive(Clone, Debug)]
+pub enum Transmission {
+    Joint {
+        variable: usize,
+        gear: Vec<f64>,
+    },
+    Tendon {
+        name: String,
+    },
+    /// Force and torque at the O of a body, in its axes.
+    Site {
+        body: usize,
+        gear: Vec<f64>,
+    },
+}
+
+/// A force that is proportional to an input.
+#[derive(Clone, Debug)]
+pub struct Motor {
+    pub name: String,
+    pub on: Transmission,
+}
+
+/// A sphere of a body that meets a plane which stands still.
+#[derive(Clone, Debug)]
+pub struct SphereOnPlane {
+    pub name: String,
+    pub body: usize,
+    /// In the axes of the body.
+    pub center: [f64; 3],
+    pub radius: f64,
+    pub normal: [f64; 3],
+    pub height: f64,
+    pub friction: f64,
+}
+
+/// All of it.
+#[derive(Clone, Debug, Default)]
+pub struct Parts {
+    /// Of each variable.
+    pub joints: Vec<JointAttributes>,
+    pub tendons: Vec<Tendon>,
+    pub motors: Vec<Motor>,
+    pub contacts: Vec<SphereOnPlane>,
+    /// What MuJoCo does in another way.
+    pub lost: Vec<String>,
+    /// What has no counterpart.
+    pub mistakes: Vec<String>,
+}

@@ -1,0 +1,312 @@
+//! The document: bodies in bodies, with their joints, then tendons, actuators and contacts.
+
+use gauss_codegen::LinkKind;
+use gauss_runtime::nalgebra::{Isometry3, Matrix3, Vector3};
+
+use super::masses::{self, LEAST};
+use super::numbers::{MassData, SceneNumbers};
+use super::parts::{Parts, Transmission};
+use super::tag::{OF_TURNS, Tag, comment};
+use super::tree::{JointTree, Motion, ROUNDING};
+
+/// A side of a range that nobody gave: MuJoCo has none with one side.
+const FAR: f64 = 1e9;
+
+/// Writes the document.
+pub struct Writer<'a> {
+    pub scene: &'a SceneNumbers,
+    pub tree: &'a JointTree,
+    pub parts: &'a mut Parts,
+    pub masses: &'a [MassData],
+    /// Rounding of places, which are differences of those of bodies from Ω.
+    pub error: f64,
+}
+
+impl<'a> Writer<'a> {
+    pub fn new(scene: &'a SceneNumbers, tree: &'a JointTree, parts: &'a mut Parts, masses: &'a [MassData]) -> Self {
+        let reach = tree.places.iter().map(|place| place.translation.vector.amax()).fold(1e-3, f64::max);
+        Self { scene, tree, parts, masses, error: 1e-15 * reach }
+    }
+
+    /// The document. Whatever is found to be wrong on the way is among the mistakes of the parts.
+    pub fn document(mut self) -> String {
+        let mut world = String::new();
+        self.members(None, (None, &Isometry3::identity()), 2, &mut world);
+        self.children(None).into_iter().for_each(|k| self.body(k, &Isometry3::identity(), 2, &mut world));
+        let mut out = Tag::new(0, "mujoco").word("model", self.scene.kernel.model().name()).open();
+        out += &comment("written by Gauss, with parameters as numbers; lengths in m, angles in rad, masses in kg");
+        self.parts.lost.iter().for_each(|line| out += &comment(line));
+        let compiler = Tag::new(1, "compiler").word("angle", "radian").word("autolimits", "true");
+        out += &compiler.word("inertiafromgeom", "false").close();
+        out += &Tag::new(1, "option").numbers("gravity", self.scene.gravity().iter(), 0.0).close();
+        if !self.parts.contacts.is_empty() {
+            out += "  <default><geom contype=\"0\" conaffinity=\"0\"/></default>\n";
+        }
+        section("worldbody", &(self.planes() + &world), &mut out);
+        section("tendon", &self.tendons(), &mut out);
+        section("actuator", &self.motors(), &mut out);
+        section("contact", &self.pairs(), &mut out);
+        out + "</mujoco>\n"
+    }
+
+    fn name(&self, body: usize) -> &'a str {
+        &self.scene.bodies.list[body].name
+    }
+
+    fn children(&self, parent: Option<usize>) -> Vec<usize> {
+        (0..self.tree.parents.len()).filter(|&k| self.tree.parents[k] == parent).collect()
+    }
+
+    fn carried(&self, by: Option<usize>, wanted: impl Fn(LinkKind) -> bool) -> Vec<usize> {
+        let list = &self.scene.bodies.list;
+        (0..list.len()).filter(|&k| self.tree.carriers[k] == by && wanted(list[k].kind)).collect()
+    }
+
+    /// A joint with those below it between which there is no mass and no branch: MuJoCo has several joints at a body.
+    fn joined(&mut self, first: usize) -> Vec<usize> {
+        let mut joints = vec![first];
+        loop {
+            let last = joints[joints.len() - 1];
+            let has_mass = !self.carried(Some(last), |kind| kind != LinkKind::Frame).is_empty();
+            let is_scalar = |k: usize| self.scene.variables[k].is_scalar();
+            match self.children(Some(last))[..] {
+                [only] if !has_mass && is_scalar(last) && is_scalar(only) => {
+                    for frame in self.carried(Some(last), |_| true) {
+                        let name = self.name(frame);
+                        self.parts.lost.push(format!("the frame `{name}` is left out: no mass moves with it"));
+                        if self.has_marks(frame) {
+                            let text = format!("`{name}`, at which something acts or touches, has no mass");
+                            self.parts.mistakes.push(text);
+                        }
+                    }
+                    joints.push(only);
+                }
+                _ => return joints,
+            }
+        }
+    }
+
+    /// The body that a joint carries.
+    fn body(&mut self, first: usize, above: &Isometry3<f64>, depth: usize, out: &mut String) {
+        let joints = self.joined(first);
+        let last = joints[joints.len() - 1];
+        let rigid = self.carried(Some(last), |kind| matches!(kind, LinkKind::Rigid { .. }));
+        let particles = self.carried(Some(last), |kind| kind == LinkKind::Particle);
+        let main = rigid.first().or(particles.first()).copied();
+        let axes = match (&self.tree.motions[last], main) {
+            (Motion::Ball(axes) | Motion::Free(axes), _) => *axes,
+            (_, Some(main)) => self.tree.places[main],
+            (Motion::Hinge { anchor, .. }, None) => Isometry3::translation(anchor.x, anchor.y, anchor.z),
+            (Motion::Slide { .. }, None) => *above,
+        };
+        let name = main.map_or_else(|| self.name_of_none(last), |main| self.name(main).to_owned());
+        *out += &Tag::new(depth, "body").word("name", &name).place(&(above.inverse() * axes), self.error).open();
+        joints.iter().for_each(|&k| self.joint(k, &axes, depth + 1, out));
+        match main {
+            Some(main) => {
+                self.inertial((main, true), &axes, depth + 1, out);
+                self.marks(main, &axes, depth + 1, out);
+            }
+            None => {
+                let text = format!("`{name}` has a mass of {LEAST:e} kg, since in MuJoCo nothing without mass moves");
+                self.parts.lost.push(text);
+                let tag = Tag::new(depth + 1, "inertial").word("pos", "0 0 0").number("mass", LEAST);
+                *out += &tag.numbers("diaginertia", &[LEAST; 3], 0.0).close();
+            }
+        }
+        self.members(Some(last), (main, &axes), depth + 1, out);
+        self.children(Some(last)).into_iter().for_each(|k| self.body(k, &axes, depth + 1, out));
+        *out += &format!("{}</body>\n", "  ".repeat(depth));
+    }
+
+    /// The name of a body that the scene does not have.
+    fn name_of_none(&self, joint: usize) -> String {
+        let joint = &self.scene.variables[joint].name;
+        let taken = |word: &String| self.scene.bodies.list.iter().any(|own| own.name == *word);
+        let numbered = (2..).map(|k| format!("{joint}_link_{k}"));
+        std::iter::once(format!("{joint}_link")).chain(numbered).find(|word| !taken(word)).unwrap_or_default()
+    }
+
+    /// Bodies, particles and frames that move with a body, or stand still.
+    fn members(
+        &mut self,
+        carrier: Option<usize>,
+        (main, axes): (Option<usize>, &Isometry3<f64>),
+        depth: usize,
+        out: &mut String,
+    ) {
+        for k in self.carried(carrier, |_| true).into_iter().filter(|k| Some(*k) != main) {
+            let name = self.name(k);
+            let own = self.tree.places[k];
+            let place = axes.inverse() * own;
+            if self.scene.bodies.list[k].kind == LinkKind::Frame {
+                if name != "world" {
+                    *out += &Tag::new(depth, "site").word("name", name).place(&place, self.error).close();
+                }
+                self.marks(k, axes, depth, out);
+                continue;
+            }
+            *out += &Tag::new(depth, "body").word("name", name).place(&place, self.error).open();
+            self.inertial((k, false), &own, depth + 1, out);
+            self.marks(k, &own, depth + 1, out);
+            *out += &format!("{}</body>\n", "  ".repeat(depth));
+        }
+    }
+
+    fn inertial(&mut self, (body, is_carrier): (usize, bool), axes: &Isometry3<f64>, depth: usize, out: &mut String) {
+        let own = masses::taken(self.scene, self.tree, (body, is_carrier), &self.masses[body], &mut self.parts.lost);
+        let MassData { mass, center, inertia } = match own {
+            Ok(own) => own,
+            Err(mistake) => return self.parts.mistakes.push(mistake),
+        };
+        let seen = axes.inverse() * self.tree.places[body];
+        // The inertia may be a difference of that about O and that of the centre of mass.
+        let error = 4e-16 * (inertia.amax() + mass * center.norm_squared());
+        let center = seen.rotation * center + seen.translation.vector;
+        let turn = seen.rotation.to_rotation_matrix();
+        let is_turned = seen.rotation.angle() > 4.0 * OF_TURNS;
+        let inertia: Matrix3<f64> = if is_turned { turn * inertia * turn.transpose() } else { inertia };
+        let [xx, yy, zz, xy, xz, yz] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|place| inertia[place]);
+        let at = if is_turned || seen.translation.vector.amax() > 0.0 { self.error } else { 0.0 };
+        let tag = Tag::new(depth, "inertial").numbers("pos", center.iter(), at).number("mass", mass);
+        let tag = match [xy, xz, yz].iter().all(|x| x.abs() <= error) {
+            true if xx.min(yy).min(zz) <= error => tag.numbers("diaginertia", &[xx, yy, zz], 0.0),
+            true => tag.numbers("diaginertia", &[xx, yy, zz], error),
+            false => tag.numbers("fullinertia", &[xx, yy, zz, xy, xz, yz], error),
+        };
+        *out += &tag.close();
+    }
+
+    fn has_marks(&self, body: usize) -> bool {
+        self.has_motors(body) || self.parts.contacts.iter().any(|own| own.body == body)
+    }
+
+    fn has_motors(&self, body: usize) -> bool {
+        let acts = |on: &Transmission| matches!(on, Transmission::Site { body: own, .. } if *own == body);
+        self.parts.motors.iter().any(|motor| acts(&motor.on))
+    }
+
+    /// Sites where motors act on a body, and its spheres that touch.
+    fn marks(&self, body: usize, axes: &Isometry3<f64>, depth: usize, out: &mut String) {
+        let seen = axes.inverse() * self.tree.places[body];
+        if self.has_motors(body) {
+            let tag = Tag::new(depth, "site").word("name", format!("{}_motors", self.name(body)));
+            *out += &tag.place(&seen, self.error).close();
+        }
+        for own in self.parts.contacts.iter().filter(|own| own.body == body) {
+            let at = seen.rotation * Vector3::from(own.center) + seen.translation.vector;
+            let tag = Tag::new(depth, "geom").word("name", &own.name).word("type", "sphere");
+            *out += &tag.numbers("pos", at.iter(), self.error).number("size", own.radius).close();
+        }
+    }
+
+    fn joint(&mut self, k: usize, axes: &Isometry3<f64>, depth: usize, out: &mut String) {
+        let (variable, own) = (&self.scene.variables[k], &self.parts.joints[k]);
+        let tag = Tag::new(depth, "joint").word("name", &variable.name);
+        let along =
+            |tag: Tag, axis: &Vector3<f64>| tag.numbers("axis", (axes.rotation.inverse() * axis).iter(), OF_TURNS);
+        let mut tag = match &self.tree.motions[k] {
+            Motion::Hinge { axis, anchor } => {
+                // The point of the axis that is nearest to the body.
+                let arm = anchor - axes.translation.vector;
+                let at = axes.rotation.inverse() * (arm - axis * axis.dot(&arm));
+                let tag = along(tag.word("type", "hinge"), axis);
+                if at.amax() > self.error { tag.numbers("pos", at.iter(), self.error) } else { tag }
+            }
+            Motion::Slide { axis } => along(tag.word("type", "slide"), axis),
+            Motion::Ball(_) => tag.word("type", "ball"),
+            Motion::Free(_) if self.tree.parents[k].is_none() => tag.word("type", "free"),
+            Motion::Free(_) => {
+                let text = format!("`{}` is a pose below another joint, where MuJoCo has no free joint", variable.name);
+                return self.parts.mistakes.push(text);
+            }
+        };
+        if own.stiffness > 0.0 {
+            tag = tag.number("stiffness", own.stiffness).some("springref", own.force / own.stiffness);
+        }
+        tag = tag.some("damping", own.damping).some("armature", own.armature).some("frictionloss", own.friction_loss);
+        if own.range != [None; 2] {
+            tag = tag.numbers("range", &[own.range[0].unwrap_or(-FAR), own.range[1].unwrap_or(FAR)], 0.0);
+        }
+        *out += &tag.close();
+        if own.range.iter().flatten().count() == 1 {
+            let text = format!("the range of `{}` has one side; the other is {FAR:e}", variable.name);
+            self.parts.lost.push(text);
+        }
+    }
+
+    fn tendons(&self) -> String {
+        let mut out = String::new();
+        for own in &self.parts.tendons {
+            let mut tag = Tag::new(2, "fixed").word("name", &own.name);
+            if own.stiffness > 0.0 {
+                tag = tag.number("stiffness", own.stiffness).number("springlength", own.length);
+            }
+            out += &tag.some("damping", own.damping).open();
+            for (k, coefficient) in &own.coefficients {
+                let joint = &self.scene.variables[*k].name;
+                out += &Tag::new(3, "joint").word("joint", joint).number("coef", *coefficient).close();
+            }
+            out += "    </fixed>\n";
+        }
+        out
+    }
+
+    fn motors(&self) -> String {
+        let motor = |own: &super::parts::Motor| {
+            let tag = Tag::new(2, "motor").word("name", &own.name);
+            let tag = match &own.on {
+                Transmission::Tendon { name } => tag.word("tendon", name),
+                Transmission::Joint { variable, gear } => {
+                    tag.word("joint", &self.scene.variables[*variable].name).numbers("gear", gear, 0.0)
+                }
+                Transmission::Site { body, gear } => {
+                    tag.word("site", format!("{}_motors", self.name(*body))).numbers("gear", gear, 0.0)
+                }
+            };
+            tag.close()
+        };
+        self.parts.motors.iter().map(motor).collect()
+    }
+
+    /// Planes, each once.
+    fn planes(&self) -> String {
+        let first = self.parts.contacts.iter().enumerate().filter(|(k, _)| self.plane(*k) == *k);
+        let plane = |own: &super::parts::SphereOnPlane| {
+            let at = Vector3::from(own.normal) * own.height;
+            let tag = Tag::new(2, "geom").word("name", format!("{}_plane", own.name)).word("type", "plane");
+            let tag = tag.word("size", "0 0 1").numbers("pos", at.iter(), self.error);
+            tag.numbers("zaxis", &own.normal, OF_TURNS).close()
+        };
+        first.map(|(_, own)| plane(own)).collect()
+    }
+
+    /// The first contact with the same plane.
+    fn plane(&self, k: usize) -> usize {
+        let all = &self.parts.contacts;
+        let apart = |other: &usize| {
+            let turned = (Vector3::from(all[*other].normal) - Vector3::from(all[k].normal)).norm();
+            turned + (all[*other].height - all[k].height).abs()
+        };
+        (0..k).find(|other| apart(other) <= ROUNDING).unwrap_or(k)
+    }
+
+    fn pairs(&self) -> String {
+        let pair = |(k, own): (usize, &super::parts::SphereOnPlane)| {
+            let plane = format!("{}_plane", self.parts.contacts[self.plane(k)].name);
+            let tag = Tag::new(2, "pair").word("name", &own.name).word("geom1", plane).word("geom2", &own.name);
+            match own.friction {
+                mu if mu > 0.0 => tag.word("condim", 3).numbers("friction", &[mu, mu], 0.0).close(),
+                _ => tag.word("condim", 1).close(),
+            }
+        };
+        self.parts.contacts.iter().enumerate().map(pair).collect()
+    }
+}
+
+/// An element with content, where there is some.
+fn section(name: &str, content: &str, out: &mut String) {
+    if !content.is_empty() {
+        *out += &format!("  <{name}>\n{content}  </{name}>\n");
+    }
+}

@@ -1,0 +1,9 @@
+//! Scenes as MJCF, read again here and by MuJoCo; what has no counterpart.
+
+mod again;
+#[path = "../common/mod.rs"]
+mod common;
+mod contacts;
+mod mujoco;
+mod refusals;
+mod scenes;
