@@ -33,6 +33,7 @@ chapters! {
     RobotsTouching: "src/robots_touching.md",
     RunTime: "src/run_time.md",
     Fmu: "src/fmu.md",
+    Mujoco: "src/mujoco.md",
     Equations: "src/equations.md",
     Seeing: "src/seeing.md",
     Results: "src/results.md",

@@ -1,13 +1,13 @@
 #![doc = include_str!("../README.md")]
 #![deny(missing_docs, unsafe_code)]
 
-// `model` (text or file → what kernels share), `checks` (what `kernel()` checks, of `gauss_codegen::parameters`, by the
-// functions that generated code calls), `configuration` (groups that are known at run time), `tables` (arrays of
-// tables), `kernel` (methods by name), `rows` (the same of many states), `system` (for `Simulation`, with room that the
-// program says), `contacts` (for runs with contacts, with room for their rows), `cache` (a folder of derivations),
-// `names` (what outlives models), `mjcf` (scenes as files of MuJoCo), `error`; `backends`: `cranelift` (programs → machine code), `lanes` (the same for
-// several rows at once), `machine` (their memory and their calls: the only `unsafe`), `interpreter`, `functions` that
-// all call.
+// `model` (text or file → what kernels share), `checks` (what `kernel()` checks, of `gauss_codegen::parameters`, by
+// the functions that generated code calls), `configuration` (groups that are known at run time), `tables` (arrays of
+// tables), `kernel` (methods by name), `rows` (the same of many states), `system` (for `Simulation`, with room that
+// the program says), `contacts` (for runs with contacts, with room for their rows), `cache` (a folder of derivations),
+// `names` (what outlives models), `mjcf` (scenes as files of MuJoCo), `error`; `backends`: `cranelift` (programs →
+// machine code), `lanes` (the same for several rows at once), `machine` (their memory and their calls: the only
+// `unsafe`), `interpreter`, `functions` that all call.
 mod backends;
 #[cfg(feature = "cache")]
 mod cache;

@@ -5,6 +5,7 @@
 mod errors;
 mod fmu;
 mod lie;
+mod mjcf;
 mod model;
 mod programs;
 mod waiting;
@@ -22,6 +23,7 @@ fn native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     gauss_python::loaded::begin(module)?;
     module.add_function(wrap_pyfunction!(stubs, module)?)?;
     module.add_function(wrap_pyfunction!(fmu::write_fmu, module)?)?;
+    module.add_function(wrap_pyfunction!(mjcf::mjcf, module)?)?;
     module.add_function(wrap_pyfunction!(lie::exp6, module)?)?;
     module.add_function(wrap_pyfunction!(lie::log6, module)?)?;
     module.add_class::<model::Model>()?;

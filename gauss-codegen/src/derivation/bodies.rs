@@ -3,11 +3,9 @@
 use crate::algebra::Expr;
 use crate::emit::Derived;
 use crate::error::Result;
-use crate::expand::derive;
 use crate::kernel;
 use crate::mechanics::Matter;
 use crate::mistakes::bug;
-use crate::model::only_struct_in;
 use crate::program::{ArgumentKind, Program, Results};
 use crate::words::Unraw;
 
@@ -59,15 +57,9 @@ impl Bodies {
     /// Numbers of each body.
     pub const NUMBERS: usize = 25;
 
-    /// The bodies of the only struct with a `#[gauss(…)]` attribute in a text.
-    ///
     /// # Errors
-    /// What is no Rust; no such struct, or several; every mistake of the struct.
-    pub fn of_text(source: &str) -> syn::Result<Self> {
-        derive(&only_struct_in(source)?, Self::of)
-    }
-
-    fn of(derived: &Derived<'_, '_>) -> Result<Self> {
+    /// Mistakes of this crate.
+    pub(super) fn of(derived: &Derived<'_, '_>) -> Result<Self> {
         let signature = Signature::new(derived);
         let program = program(derived, &signature).map_err(|malformed| bug(&derived.item().ident, &malformed))?;
         let elements = derived.accounts().into_iter().map(|account| account.name).collect();

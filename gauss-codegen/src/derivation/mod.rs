@@ -199,3 +199,13 @@ impl Derivation {
         self.rust.as_ref()
     }
 }
+
+impl Bodies {
+    /// The bodies of the only struct with a `#[gauss(…)]` attribute in a text.
+    ///
+    /// # Errors
+    /// What is no Rust; no such struct, or several; every mistake of the struct.
+    pub fn of_text(source: &str) -> syn::Result<Self> {
+        derive(&only_struct_in(source)?, Self::of)
+    }
+}

@@ -10,7 +10,7 @@ use quote::ToTokens;
 use syn::Error;
 
 use crate::arguments::New;
-use crate::{python, robots, show, structs};
+use crate::{python, robots, structs};
 
 /// Acceleration of free fall, in m/s², of robots where nothing else is given.
 pub const GRAVITY: f64 = 9.81;
@@ -82,7 +82,7 @@ pub fn of_robot(file: &Path, clauses: &[String]) -> Result<String, String> {
 /// of several is chosen.
 pub fn of_scene(file: &Path, name: Option<&str>, how: &str) -> Result<String, String> {
     let text = fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))?;
-    let located = |mistakes: Error| show::located(file, &mistakes);
+    let located = |mistakes: Error| structs::located(file, &mistakes);
     let tokens = text.parse::<TokenStream>().map_err(|error| located(Error::new(error.span(), "this is no Rust")))?;
     let names: Vec<String> = name.map(str::to_owned).into_iter().collect();
     let mut items = structs::find(tokens, &names).map_err(located)?;

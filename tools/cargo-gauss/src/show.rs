@@ -1,7 +1,6 @@
 //! `cargo gauss show`: prints what is derived.
 
 use std::fs;
-use std::path::Path;
 
 use gauss_codegen::program::Program;
 use gauss_codegen::targets::c::Precision;
@@ -12,6 +11,7 @@ use syn::{DeriveInput, Error};
 use crate::arguments::{Form, Show};
 use crate::charts::in_chart;
 use crate::shown::{Shown, loss};
+use crate::structs::located;
 use crate::{mjcf, page, robots, structs};
 
 /// Prints it, or writes it to a file.
@@ -75,15 +75,6 @@ fn derive(wanted: &Show, items: &[DeriveInput]) -> Result<Vec<Shown>, String> {
         }
     }
     if mistakes.is_empty() { Ok(all) } else { Err(mistakes.join("\n")) }
-}
-
-/// Every mistake with its place.
-pub fn located(file: &Path, mistakes: &syn::Error) -> String {
-    let lines = mistakes.into_iter().map(|mistake| {
-        let start = mistake.span().start();
-        format!("{}:{}:{}: {mistake}", file.display(), start.line, start.column + 1)
-    });
-    lines.collect::<Vec<_>>().join("\n")
 }
 
 fn text(shown: &Shown, wanted: &Show) -> Result<String, String> {

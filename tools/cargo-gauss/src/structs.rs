@@ -3,6 +3,8 @@
 //! Of the file only the tokens are read, and of those only the structs: the rest is the compiler's, and may be nested
 //! as deeply as that reads it.
 
+use std::path::Path;
+
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 use syn::{DeriveInput, Error};
 
@@ -36,6 +38,15 @@ pub fn find(file: TokenStream, names: &[String]) -> Result<Vec<DeriveInput>, Err
             Err(Error::new(proc_macro2::Span::call_site(), message))
         }
     }))
+}
+
+/// Every mistake with its place.
+pub fn located(file: &Path, mistakes: &Error) -> String {
+    let lines = mistakes.into_iter().map(|mistake| {
+        let start = mistake.span().start();
+        format!("{}:{}:{}: {mistake}", file.display(), start.line, start.column + 1)
+    });
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 /// All of them, or all mistakes.

@@ -52,8 +52,8 @@ impl<'a> Contacts<'a> {
                 own.rolls_on.is_some() && self.parts.contacts.iter().any(|known| own.name.starts_with(&known.name));
             if !found && !is_rolling {
                 self.parts.mistakes.push(format!(
-                    "the contact `{}` has no counterpart: it is no range or dry friction of one joint, and no point or \
-                     sphere of a body above a plane that stands still",
+                    "the contact `{}` is neither a range or dry friction of one joint nor that of a point or sphere of a \
+                     body above a plane that stands still",
                     own.name
                 ));
             }

@@ -1,4 +1,4 @@
-//! What acts, element by element: weight, springs and dampers that are linear in rates and coordinates of joints, and
+//! Loads, element by element: weight, springs and dampers that are linear in rates and coordinates of joints, and
 //! forces that are proportional to inputs. Each is known by its generalised forces; whatever they are not is refused.
 
 use std::ops::Range;
@@ -103,7 +103,7 @@ impl<'a> Forces<'a> {
                 let sizes = [constant.amax(), stiffness.amax(), damping.amax()];
                 if sizes != [0.0; 3] && !(self.springs(name, constant, stiffness) && self.dampers(name, damping)) {
                     self.parts.mistakes.push(format!(
-                        "`{name}`: a constant force, or a law that gives energy, has no counterpart in joints and tendons"
+                        "`{name}`: a constant force, or a law that gives energy, is none of joints and tendons"
                     ));
                 }
             }
@@ -256,7 +256,7 @@ impl<'a> Forces<'a> {
         match on {
             Some(on) => self.parts.motors.push(Motor { name, on }),
             None => self.parts.mistakes.push(format!(
-                "the input `{name}` has no counterpart: it is no force along joints, and no wrench at one body in its axes"
+                "the input `{name}` is neither a force along joints nor a wrench at one body in its axes"
             )),
         }
     }
@@ -311,8 +311,8 @@ impl<'a> Forces<'a> {
     }
 }
 
-/// A symmetric matrix without a negative eigenvalue as a sum of squares of rows, each with its factor, the first entry of
-/// each row 1; `None` of another one.
+/// A symmetric matrix without a negative eigenvalue as a sum of squares of rows, each with its factor, the first entry
+/// of each row 1; `None` of another one.
 fn squares(matrix: &DMatrix<f64>) -> Option<Vec<(DVector<f64>, f64)>> {
     let (mut rest, size) = (matrix.clone(), matrix.amax());
     let mut list = Vec::new();

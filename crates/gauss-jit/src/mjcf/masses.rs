@@ -1,4 +1,4 @@
-//! Masses: what MuJoCo takes for an inertia, and armatures, which are what the mass matrix has beyond that of the bodies.
+//! Masses: what MuJoCo takes for an inertia, and armatures, which are what the mass matrix has beyond that of bodies.
 
 use gauss_runtime::nalgebra::{DMatrix, DVector, Matrix3, Matrix3xX, Vector3};
 
@@ -76,8 +76,8 @@ pub fn armatures(scene: &SceneNumbers, tree: &JointTree, masses: &[MassData]) ->
         let values = scene.sample(&mut sequence);
         let Some(mut rest) = scene.mass_matrix(&values) else {
             return refused(
-                "the speeds are fewer than the rates of the joints, or do not determine them: velocities are constrained \
-                 (`constraint(velocity = …)`, `independent`, `motion`), which has no counterpart",
+                "the speeds do not determine the rates of the joints: velocities are constrained \
+                 (`constraint(velocity = …)`, `independent`, `motion`)",
             );
         };
         let size = rest.amax();
@@ -91,8 +91,8 @@ pub fn armatures(scene: &SceneNumbers, tree: &JointTree, masses: &[MassData]) ->
             && diagonal.iter().all(|a| *a >= 0.0))
         {
             return refused(
-                "the kinetic energy has more than that of bodies and of an armature at each joint, such as a rotor that \
-                 several joints turn",
+                "the kinetic energy has more than that of bodies and of an armature at each joint, such as a \
+                 rotor that several joints turn",
             );
         }
         own = own.or(Some(diagonal.iter().map(|a| shortest(*a, 1e-14 * size)).collect()));
@@ -117,8 +117,8 @@ fn mass_matrix(
     DMatrix::from_fn(rows.ncols(), rows.ncols(), |i, j| sum[(i, j)])
 }
 
-/// Mass data that MuJoCo takes, in place of those of a body that turns about one axis alone, or not at all, or has none.
-/// Whatever of it changes the motion is told.
+/// Mass data that MuJoCo takes, in place of those of a body that turns about one axis alone, or not at all, or has
+/// none. Whatever of it changes the motion is told.
 ///
 /// # Errors
 /// An inertia that no body has, in a sentence.

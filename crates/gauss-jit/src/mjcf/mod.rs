@@ -1,8 +1,8 @@
 //! Scenes as MJCF files, for MuJoCo and for what reads its format.
 //!
-//! `numbers`: the scene where its joints have given values; `tree`: the joints, found from the places of bodies; `masses`:
-//! inertias and armatures; `forces`, `contacts`: what acts, clause by clause; `parts`: attributes of joints, tendons,
-//! actuators; `write`: the document, by `tag`.
+//! `numbers`: the scene where its joints have given values; `tree`: the joints, found from the places of bodies;
+//! `masses`: inertias and armatures; `forces`, `contacts`: what acts, clause by clause; `parts`: attributes of joints,
+//! tendons, actuators; `write`: the document, by `tag`.
 
 mod contacts;
 mod forces;
@@ -25,7 +25,7 @@ use forces::Forces;
 use numbers::SceneNumbers;
 use parts::{JointAttributes, Parts};
 use tree::JointTree;
-use write::Writer;
+use write::Document;
 
 /// A scene with numbers for its parameters as an MJCF document.
 ///
@@ -46,7 +46,7 @@ pub enum MjcfError {
     Scene(Mistakes),
     /// Parameters that are not given, given twice, or those of no body: each with its field.
     Parameters(KernelError),
-    /// What has no counterpart, each in a sentence.
+    /// Clauses and bodies without a counterpart, each in a sentence.
     NoCounterpart(Vec<String>),
 }
 
@@ -79,8 +79,8 @@ impl Mjcf {
     ///
     /// # Errors
     /// Mistakes of the scene and of its parameters; all that has no counterpart: poses that are no products of joints,
-    /// constraints, fluids, modes, states of elements, loads that are not linear, tables, contacts other than of spheres
-    /// with planes.
+    /// constraints, fluids, modes, states of elements, loads that are not linear, tables, contacts other than those of
+    /// spheres with planes.
     pub fn new(source: &str, parameters: &[(&str, &[f64])]) -> Result<Self, MjcfError> {
         let model = Model::from_source(source).map_err(MjcfError::Scene)?;
         let kernel = model.kernel(parameters).map_err(MjcfError::Parameters)?;
@@ -104,7 +104,7 @@ impl Mjcf {
         }
         parts.lost.extend(model.description().remarks.iter().filter(|own| own.ignored).map(|own| own.text.clone()));
         Contacts::new(&scene, &tree, &mut parts).add();
-        let text = Writer::new(&scene, &tree, &mut parts, &masses).document();
+        let text = Document::new(&scene, &tree, &mut parts, &masses).written();
         if parts.mistakes.is_empty() {
             Ok(Self { text, lost: parts.lost })
         } else {

@@ -1,7 +1,7 @@
 //! A scene by its numbers: poses of bodies, mass matrix and forces where joints have given values.
 //!
-//! Coordinates are those of joints: scalars, rotations and poses; rates are theirs as MuJoCo has them, of a rotation ω in
-//! the axes that turn, of a pose ḃ in axes that stand still, then ω.
+//! Coordinates are those of joints: scalars, rotations and poses; rates are theirs as MuJoCo has them, of a rotation ω
+//! in the axes that turn, of a pose ḃ in axes that stand still, then ω.
 
 use std::ops::Range;
 
@@ -28,7 +28,7 @@ pub struct Variable {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum VariableKind {
     Scalar,
-    /// By cosine and sine.
+    /// An angle by its cosine and sine.
     Angle,
     Rotation,
     Pose,

@@ -1,4 +1,4 @@
-//! What of a scene MJCF writes beside its bodies: attributes of joints, tendons, actuators, contacts.
+//! Parts of a document beside its bodies: attributes of joints, tendons, actuators, contacts.
 
 /// Attributes of a joint beside its place.
 #[derive(Clone, Debug, Default)]
@@ -23,7 +23,7 @@ pub struct Tendon {
     pub damping: f64,
 }
 
-/// What an actuator acts on.
+/// The place where an actuator acts.
 #[derive(Clone, Debug)]
 pub enum Transmission {
     Joint {
@@ -63,13 +63,13 @@ pub struct SphereOnPlane {
 /// All of it.
 #[derive(Clone, Debug, Default)]
 pub struct Parts {
-    /// Of each variable.
+    /// Attributes of the joint of each variable.
     pub joints: Vec<JointAttributes>,
     pub tendons: Vec<Tendon>,
     pub motors: Vec<Motor>,
     pub contacts: Vec<SphereOnPlane>,
-    /// What MuJoCo does in another way.
+    /// Sentences about what MuJoCo does in another way.
     pub lost: Vec<String>,
-    /// What has no counterpart.
+    /// Sentences about what has no counterpart.
     pub mistakes: Vec<String>,
 }

@@ -1,8 +1,9 @@
 //! The tree of joints that a scene moves by, found from the places of its bodies.
 //!
-//! A pose is that of such a tree where it is a product of motions, one for each coordinate: `T(q) = E₁(q₁) … E_k(q_k) M`,
-//! each a turn about a line, a shift along a direction, a turn about a point, or a pose. Motions are seen where all other
-//! coordinates are 0; that their product is the pose is then tried at states of general position.
+//! A pose is that of such a tree where it is a product of motions, one for each coordinate:
+//! `T(q) = E₁(q₁) … E_k(q_k) M`, each a turn about a line, a shift along a direction, a turn about a point, or a pose.
+//! Motions are seen where all other coordinates are 0; that their product is the pose is then tried at states of
+//! general position.
 
 use gauss_codegen::LinkKind;
 use gauss_runtime::nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
@@ -31,7 +32,7 @@ pub enum Motion {
 
 /// The joints of a scene: each coordinate moves what hangs on it, on what those above it have moved.
 pub struct JointTree {
-    /// Of each variable.
+    /// The motion by each variable.
     pub motions: Vec<Motion>,
     pub parents: Vec<Option<usize>>,
     /// The last variable that moves each body.
@@ -200,8 +201,8 @@ impl<'a> Finder<'a> {
                     tree.way(tree.carriers[body]).into_iter().map(|k| format!("`{}`", self.scene.variables[k].name));
                 let way: Vec<String> = way.collect();
                 Some(format!(
-                    "the place of `{name}` is no product of joints, one for each of {}: a coordinate that enters twice or \
-                     by a function has no counterpart",
+                    "the place of `{name}` is no product of joints, one for each of {}: a coordinate enters twice, \
+                     or by a function",
                     way.join(", ")
                 ))
             } else {
@@ -236,7 +237,7 @@ impl<'a> Finder<'a> {
             }
         };
         found.ok_or_else(|| {
-            refused("what it moves neither turns by it, about a line, nor shifts by it, both by one unit for each of its own")
+            refused("what it moves neither turns about a line nor shifts, by one unit for each of its own")
         })
     }
 

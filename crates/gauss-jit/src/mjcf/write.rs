@@ -12,8 +12,8 @@ use super::tree::{JointTree, Motion, ROUNDING};
 /// A side of a range that nobody gave: MuJoCo has none with one side.
 const FAR: f64 = 1e9;
 
-/// Writes the document.
-pub struct Writer<'a> {
+/// A document that is written.
+pub struct Document<'a> {
     pub scene: &'a SceneNumbers,
     pub tree: &'a JointTree,
     pub parts: &'a mut Parts,
@@ -22,14 +22,14 @@ pub struct Writer<'a> {
     pub error: f64,
 }
 
-impl<'a> Writer<'a> {
+impl<'a> Document<'a> {
     pub fn new(scene: &'a SceneNumbers, tree: &'a JointTree, parts: &'a mut Parts, masses: &'a [MassData]) -> Self {
         let reach = tree.places.iter().map(|place| place.translation.vector.amax()).fold(1e-3, f64::max);
         Self { scene, tree, parts, masses, error: 1e-15 * reach }
     }
 
     /// The document. Whatever is found to be wrong on the way is among the mistakes of the parts.
-    pub fn document(mut self) -> String {
+    pub fn written(mut self) -> String {
         let mut world = String::new();
         self.members(None, (None, &Isometry3::identity()), 2, &mut world);
         self.children(None).into_iter().for_each(|k| self.body(k, &Isometry3::identity(), 2, &mut world));

@@ -5,8 +5,9 @@ use gauss_jit::{Kernel, Model};
 use crate::common::{Random, names};
 use crate::scenes::{Example, Motion, examples};
 
-/// Numbers of a document are right to 2e-16 of the largest beside them, and a mass matrix of condition 1e5, as of legs on a
-/// trunk, loses five digits of that. A particle on joints has 1e-14 kg m² in the place of 0, beside moments of 1e-3.
+/// Numbers of a document are right to 2e-16 of the largest beside them, and a mass matrix of condition 1e5, as of legs
+/// on a trunk, loses five digits of that. A particle on joints has 1e-14 kg m² in the place of 0, beside moments of
+/// 1e-3.
 const ROUNDING: f64 = 1e-10;
 
 /// The state of the scene for the kernel of the document, whose joints have the names of the coordinates.

@@ -1,4 +1,4 @@
-//! Ranges, dry friction and contacts in documents: their numbers, and what is lost. Gaps beside MuJoCo's are in `mujoco`.
+//! Ranges, dry friction and contacts in documents: their numbers, and what is lost. `mujoco` has gaps beside MuJoCo's.
 
 use crate::scenes::examples;
 

@@ -95,6 +95,8 @@ class Kernel(_native.Kernel):
         self, path: str | PathLike[str], *, start: Mapping[str, float] | None = None, fmi: int = 2
     ) -> str | None:
         """Writes the kernel as an FMU, of FMI 2.0 or 3.0: source code, and a binary where there is a C compiler."""
+    def mjcf(self) -> str:
+        """The kernel as an MJCF document, for MuJoCo."""
     def __getattr__(self, name: str) -> Any:
         """Programs that are no methods of all classes: `regressor`, `powers`, those of contacts."""
 

@@ -226,6 +226,14 @@ class Kernel(_native.Kernel):
         start = [(name, float(value)) for name, value in (start or {}).items()]
         return _native.write_fmu(_text(self.model._recipe), parameters, start, fmi, os.fspath(path))
 
+    def mjcf(self):
+        """The kernel as an MJCF document, for MuJoCo: a joint for each coordinate, its parameters as numbers.
+
+        Comments say what MuJoCo does in another way, such as contacts. Raises ValueError for what MJCF has no counterpart
+        for, with the clause.
+        """
+        return _native.mjcf(_text(self.model._recipe), list(_flat(self.parameters).items()))
+
     def __getattr__(self, name):
         if name.startswith("_") or self.model is None or name not in self.methods:
             raise AttributeError(f"{type(self).__name__} has no `{name}`")

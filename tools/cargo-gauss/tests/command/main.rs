@@ -1,6 +1,7 @@
 //! The command, as Cargo calls it.
 
 mod languages;
+mod mjcf;
 
 use std::fs;
 use std::path::{Path, PathBuf};
