@@ -16,8 +16,8 @@ const STACK: usize = 8 << 20;
 /// Runs a derivation on a thread of its own while this one looks for signals.
 ///
 /// # Errors
-/// The exception that the handler of a signal raises, as Ctrl-C does. The derivation, which nothing waits for then, goes
-/// on to its end, and what it writes to the cache is found by the next.
+/// The exception that the handler of a signal raises, as Ctrl-C does. The derivation, which nothing waits for then,
+/// goes on to its end, and what it writes to the cache is found by the next.
 pub fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     derivation: impl FnOnce() -> T + Send + 'static,

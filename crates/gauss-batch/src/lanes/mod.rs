@@ -33,8 +33,8 @@ use gauss_runtime::simd::Packed;
 /// [`Adaptive`](gauss_runtime::integrate::Adaptive) by any method that estimates its error,
 /// [`Taylor`](gauss_runtime::integrate::Taylor), [`Fixed`](gauss_runtime::integrate::Fixed) by any method,
 /// [`Adams`](gauss_runtime::integrate::Adams), and what is chosen of these by name, a
-/// [`MethodControl`](gauss_runtime::integrate::MethodControl). Its functions are for the runs of this crate, which alone
-/// implements it.
+/// [`MethodControl`](gauss_runtime::integrate::MethodControl). Its functions are for the runs of this crate, which
+/// alone implements it.
 pub trait LaneControl<S: BatchSystem>: Control<S> + Sealed {
     /// Memory of the lanes from step to step.
     #[doc(hidden)]

@@ -28,6 +28,8 @@ pub struct Contacts<'a> {
     parts: &'a mut Parts,
     list: Vec<ContactDescription>,
     states: Vec<ContactState>,
+    /// Names of what touches as points.
+    points: Vec<String>,
 }
 
 impl<'a> Contacts<'a> {
@@ -39,18 +41,19 @@ impl<'a> Contacts<'a> {
             Vec::new()
         } else {
             let all = origin.chain((0..STATES).map(|_| scene.sample(&mut sequence)));
-            all.enumerate().filter_map(|(k, values)| state(scene, 0.3 * k as f64, values)).collect()
+            let mut sequence = Sequence::new();
+            all.enumerate().filter_map(|(k, values)| state(scene, 0.3 * k as f64, values, &mut sequence)).collect()
         };
-        Self { scene, tree, parts, list, states }
+        Self { scene, tree, parts, list, states, points: Vec::new() }
     }
 
     pub fn add(mut self) {
         let (mut row, mut vector) = (0, 0);
         for (k, own) in self.list.clone().iter().enumerate() {
             let found = self.range(k, row, own) || self.dry(row, own) || self.sphere(k, (row, vector), own);
-            let is_rolling =
-                own.rolls_on.is_some() && self.parts.contacts.iter().any(|known| own.name.starts_with(&known.name));
-            if !found && !is_rolling {
+            // Of what rolls it is said where its contact is.
+            let is_known = |on: usize| self.parts.contacts.iter().any(|known| known.name == self.list[on].name);
+            if !found && !own.rolls_on.is_some_and(is_known) {
                 self.parts.mistakes.push(format!(
                     "the contact `{}` is neither a range or dry friction of one joint nor that of a point or sphere of a \
                      body above a plane that stands still",
@@ -59,6 +62,11 @@ impl<'a> Contacts<'a> {
             }
             row += own.rows();
             vector += if own.axes > 0 { 1 + own.axes } else { 0 };
+        }
+        if !self.points.is_empty() {
+            let names = self.points.join(", ");
+            let text = format!("points touch as spheres of {POINT:e} m, since MuJoCo has none without size: {names}");
+            self.parts.lost.push(text);
         }
         if !self.list.is_empty() {
             self.parts.lost.push(
@@ -162,9 +170,7 @@ impl<'a> Contacts<'a> {
         let number = |x: f64| shortest(x, error);
         let radius = Some(number(found[3])).filter(|r| *r > POINT);
         if radius.is_none() {
-            self.parts
-                .lost
-                .push(format!("`{}` touches as a sphere of {POINT:e} m: MuJoCo has no points that touch", own.name));
+            self.points.push(format!("`{}`", own.name));
         }
         let center = [found[0], found[1], found[2]].map(number);
         let (normal, height) = ([normal.x, normal.y, normal.z], number(height));
@@ -185,9 +191,9 @@ impl<'a> Contacts<'a> {
     }
 }
 
-fn state(scene: &SceneNumbers, t: f64, values: Vec<Value>) -> Option<ContactState> {
+fn state(scene: &SceneNumbers, t: f64, values: Vec<Value>, sequence: &mut Sequence) -> Option<ContactState> {
     let q = scene.configuration(&values);
-    let (z, u) = (vec![0.0; scene.rates_by_speeds(&values).ncols()], vec![0.0; scene.inputs.len()]);
+    let (z, u) = (sequence.list(scene.rates_by_speeds(&values).ncols()), sequence.list(scene.inputs.len()));
     let call = |method: &str| {
         let count = scene.kernel.model().arguments(method).ok()?.len();
         scene.kernel.call(method, &[&[t][..], &q, &z, &u][..count]).ok()

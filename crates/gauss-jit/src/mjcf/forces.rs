@@ -14,6 +14,9 @@ use super::tree::{JointTree, Motion, ROUNDING};
 /// The name of weight among the elements.
 const GRAVITY: &str = "gravity";
 
+/// Sizes of coordinates, rates and inputs at which a law is tried: what is clamped, or wraps around, is so somewhere.
+const SCALES: [f64; STATES] = [1.0, 30.0, 1e3, 1e6];
+
 /// A force that is linear: `constant − stiffness q − damping q̇`, with those q that are scalars.
 struct Linear {
     constant: DVector<f64>,
@@ -130,16 +133,22 @@ impl<'a> Forces<'a> {
         let mut linear = Linear { constant, stiffness, damping };
         let size = linear.constant.amax() + linear.stiffness.amax() + linear.damping.amax();
         let mut sequence = Sequence::new();
-        for k in 0..STATES {
-            let values = self.scene.sample(&mut sequence);
-            let (rates, inputs) = (sequence.list(count), sequence.list(inputs.len()));
+        for (k, scale) in SCALES.into_iter().enumerate() {
+            let mut values = self.scene.sample(&mut sequence);
+            let scaled = |list: Vec<f64>| list.into_iter().map(|x| scale * x).collect::<Vec<f64>>();
+            let (rates, inputs) = (scaled(sequence.list(count)), scaled(sequence.list(inputs.len())));
             let mut q = DVector::zeros(count);
-            self.scene.variables.iter().zip(&values).for_each(|(own, value)| q[own.rate] = value.scalar());
+            for (own, value) in self.scene.variables.iter().zip(&mut values) {
+                if let Value::Scalar(x) = value {
+                    *x *= scale;
+                    q[own.rate] = *x;
+                }
+            }
             let law = &linear.constant - &linear.stiffness * q - &linear.damping * DVector::from_column_slice(&rates);
             let gains = self.gains(column, &values)?;
             let law = law + gains * DVector::from_column_slice(&inputs);
             let given = self.force(column, (0.4 * k as f64, &values), &rates, &inputs)?;
-            if !are_small((&given - law).iter(), 100.0 * ROUNDING * (size + given.amax())) {
+            if !are_small((&given - law).iter(), 100.0 * ROUNDING * (scale * size + given.amax())) {
                 return None;
             }
         }

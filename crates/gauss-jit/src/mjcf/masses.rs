@@ -74,6 +74,9 @@ pub fn armatures(scene: &SceneNumbers, tree: &JointTree, masses: &[MassData]) ->
     let mut own: Option<Vec<f64>> = None;
     for _ in 0..STATES {
         let values = scene.sample(&mut sequence);
+        if scene.drifts(&values) {
+            return refused("coordinates move while all speeds are 0 (`kinematics`)");
+        }
         let Some(mut rest) = scene.mass_matrix(&values) else {
             return refused(
                 "the speeds do not determine the rates of the joints: velocities are constrained \

@@ -16,13 +16,14 @@ mod write;
 use std::fmt;
 
 use gauss_codegen::Bodies;
+use gauss_codegen::program::{ArgumentKind, Input, Program};
 
 use crate::error::{KernelError, Mistakes};
 use crate::model::Model;
 
 use contacts::Contacts;
 use forces::Forces;
-use numbers::SceneNumbers;
+use numbers::{MassData, SceneNumbers, Variable};
 use parts::{JointAttributes, Parts};
 use tree::JointTree;
 use write::Document;
@@ -86,24 +87,25 @@ impl Mjcf {
         let kernel = model.kernel(parameters).map_err(MjcfError::Parameters)?;
         let read = kernel.numbers(parameters).map_err(MjcfError::Parameters)?;
         let bodies = Bodies::of_text(source).map_err(|error| MjcfError::NoCounterpart(vec![error.to_string()]))?;
-        refuse(&model).map_err(MjcfError::NoCounterpart)?;
-        let scene = SceneNumbers::new(kernel, bodies, read);
-        let tree = JointTree::of(&scene).map_err(MjcfError::NoCounterpart)?;
-        let masses = scene.masses();
-        let armatures = masses::armatures(&scene, &tree, &masses).map_err(MjcfError::NoCounterpart)?;
-        let joints =
-            scene.variables.iter().map(|own| JointAttributes { armature: armatures[own.rate], ..Default::default() });
-        let mut parts = Parts { joints: joints.collect(), ..Parts::default() };
-        for own in &scene.variables {
-            if own.rates().any(|k| armatures[k] != armatures[own.rate]) {
-                parts.mistakes.push(format!("`{}` has an armature about each of its axes", own.name));
-            }
+        // States of elements stand among coordinates.
+        let (mut parts, has_states) = (Parts::default(), model.methods().any(|name| name == "configuration_rates"));
+        parts.mistakes = refuse(&model, has_states);
+        if has_states {
+            return Err(MjcfError::NoCounterpart(parts.mistakes));
         }
-        if !scene.bodies.elements.is_empty() {
+        let scene = SceneNumbers::new(kernel, bodies, read);
+        let tree =
+            JointTree::of(&scene).map_err(|list| MjcfError::NoCounterpart([parts.mistakes.clone(), list].concat()))?;
+        let masses = scene.masses();
+        parts.joints = armatures(&scene, &tree, &masses, &mut parts.mistakes);
+        if !scene.bodies.elements.is_empty() && scene.mass_matrix(&scene.origin()).is_some() {
             Forces::new(&scene, &tree, &mut parts).add(&masses);
         }
         parts.lost.extend(model.description().remarks.iter().filter(|own| own.ignored).map(|own| own.text.clone()));
         Contacts::new(&scene, &tree, &mut parts).add();
+        if parts.mistakes.is_empty() && reads_time(&scene) {
+            parts.mistakes.push("the time `t` enters the equations, of which MJCF has no functions".to_owned());
+        }
         let text = Document::new(&scene, &tree, &mut parts, &masses).written();
         if parts.mistakes.is_empty() {
             Ok(Self { text, lost: parts.lost })
@@ -125,8 +127,42 @@ impl Mjcf {
     }
 }
 
+/// Joints with their armatures.
+fn armatures(
+    scene: &SceneNumbers,
+    tree: &JointTree,
+    masses: &[MassData],
+    mistakes: &mut Vec<String>,
+) -> Vec<JointAttributes> {
+    let found = masses::armatures(scene, tree, masses).unwrap_or_else(|list| {
+        mistakes.extend(list);
+        vec![0.0; scene.rates()]
+    });
+    let attributes = |own: &Variable| {
+        if own.rates().any(|k| found[k] != found[own.rate]) {
+            mistakes.push(format!("`{}` has an armature about each of its axes", own.name));
+        }
+        JointAttributes { armature: found[own.rate], ..JointAttributes::default() }
+    };
+    scene.variables.iter().map(attributes).collect()
+}
+
+/// Whether places of bodies, what acts or what touches depends on the time, be it anywhere.
+fn reads_time(scene: &SceneNumbers) -> bool {
+    let methods = scene.kernel.model().derived.data.methods.iter();
+    let own = methods.filter(|program| ["acceleration", "gaps", "friction"].contains(&&program.name[..]));
+    let reads = |program: &Program| {
+        let is_time = |input: &Input| match input {
+            Input::Component { argument, .. } => program.arguments[*argument].kind == ArgumentKind::Time,
+            Input::Number(_) => false,
+        };
+        program.code.inputs().iter().any(is_time)
+    };
+    own.chain([&scene.bodies.program]).any(reads)
+}
+
 /// Clauses that have no counterpart whatever their numbers are.
-fn refuse(model: &Model) -> Result<(), Vec<String>> {
+fn refuse(model: &Model, has_states: bool) -> Vec<String> {
     let mut mistakes = Vec::new();
     let has = |method: &str| model.methods().any(|name| name == method);
     if model.description().is_constrained || has("position_residual") || has("velocity_residual") {
@@ -135,11 +171,11 @@ fn refuse(model: &Model) -> Result<(), Vec<String>> {
                 .to_owned(),
         );
     }
-    if has("configuration_rates") {
+    if has_states {
         mistakes.push("elements with states (`states`) are none of MuJoCo's actuators with activations".to_owned());
     }
     if !model.table_constants().is_empty() {
         mistakes.push(format!("tables ({}) have no counterpart", model.table_constants().join(", ")));
     }
-    if mistakes.is_empty() { Ok(()) } else { Err(mistakes) }
+    mistakes
 }

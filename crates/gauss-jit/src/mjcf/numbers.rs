@@ -272,6 +272,13 @@ impl SceneNumbers {
         matrix
     }
 
+    /// Whether something moves while all speeds are 0.
+    pub fn drifts(&self, values: &[Value]) -> bool {
+        let speeds: usize = self.kernel.model().description().speeds.iter().map(|own| own.numbers.len()).sum();
+        let lists: [&[f64]; 3] = [&[0.3], &self.configuration(values), &vec![0.0; speeds]];
+        !self.kernel.call("kinematics", &lists).is_ok_and(|rest| rest.iter().all(|x| *x == 0.0))
+    }
+
     /// The inverse of that; `None` where the speeds are not as many as the rates, or do not determine them.
     fn speeds_by_rates(&self, values: &[Value]) -> Option<DMatrix<f64>> {
         Some(self.rates_by_speeds(values)).filter(DMatrix::is_square)?.try_inverse()

@@ -39,6 +39,10 @@ fn loads_without_a_counterpart_are_named() {
     check(&cart("spring(away, along = x, stiffness = 1), potential = -x * x"), &["`potential`: a constant force"]);
     check(&cart("drive(feed, x = rate(x))"), &["`feed`: a constant force, or a law that gives energy"]);
     check(&cart("drive(shake, x = sin(t))"), &["`shake`: no sum"]);
+    // Laws that are linear where numbers are of the size 1, and forces of a time that nobody looks at.
+    check(&cart("input(u), drive(limited, x = clamp(u, -500, 500))"), &["`limited`: no sum"]);
+    check(&cart("drive(late, x = smooth_step(t, 1000, 1001))"), &["the time `t`"]);
+    check(&cart("drive(stopped, x = -clamp(x, -400, 400))"), &["`stopped`: no sum"]);
     check(&cart("input(u), states(f = u - f), drive(x = f)"), &["`states`"]);
     // Turned by x, the force is along none of the joints and in no axes of the body.
     let turning =
@@ -89,12 +93,27 @@ fn matter_without_a_counterpart_is_named() {
     check(formal, &["the inertia of `rotor` breaks the triangle inequality"]);
 }
 
+/// What is wrong with masses hides neither loads nor contacts.
+#[test]
+fn all_is_said_at_once() {
+    let all =
+        "coordinates(x, y), body(hull, position = [x, y, 0], mass = 1, inertia = 1, added_mass = [1, 1, 1, 0, 0, 0]),
+               constraint(position = x - y * y), drag(air, body = hull, linear = [1, 0, 0, 0, 0, 0]),
+               potential = x * x * x, contact(floor, gap = y + x * x)";
+    let words = ["`constraint`", "on `hull` a fluid acts", "`potential`: no sum", "the contact `floor`"];
+    check(all, &words);
+}
+
 #[test]
 fn contacts_without_a_counterpart_are_named() {
     let ball = "coordinates(x, y), particle(mass = 1, position = [x, y, 0])";
     check(&format!("{ball}, contact(floor, gap = y + x * x)"), &["the contact `floor`"]);
     check(&format!("{ball}, range(rope, along = x + y, to = 1)"), &["the contact `rope_to`"]);
     check(&format!("{ball}, dry_friction(rail, slip = rate(x + y), bound = 1)"), &["the contact `rail`"]);
+    check(
+        &format!("{ball}, dry_friction(rail, slip = rate(x), bound = 1 + rate(x) * rate(x))"),
+        &["the contact `rail`"],
+    );
     let lift = "body(cart, position = [x, y, 0], mass = 1, inertia = 1), coordinates(x, y),
                 contact(lift, point = cart.position, radius = 0.1, plane = [0, 1, 0], height = sin(t))";
     check(lift, &["the contact `lift`"]);

@@ -10,8 +10,8 @@ use gauss_runtime::prelude::{Configuration, GaussSystem, Rosenbrock, SVector};
 
 use crate::methods::Sizes;
 use crate::steps::{
-    self, Control, Effect, Event, Held, InContact, Input, Jumped, Outcome, Request, Until, Watched, components,
-    lacks, no_contacts, numbers_of, smooth, touching, vector,
+    self, Control, Effect, Event, Held, InContact, Input, Jumped, Outcome, Request, Until, Watched, components, lacks,
+    no_contacts, numbers_of, smooth, touching, vector,
 };
 
 /// A system with room for N numbers of each kind.

@@ -2,7 +2,9 @@
 
 use gauss_runtime::contact::{Contact, ContactSystem};
 use gauss_runtime::integrate::drive::each::Each;
-use gauss_runtime::integrate::{Control as Steps, EstimatingStep, IntegrationError, MethodControl, MethodError, MethodPlace};
+use gauss_runtime::integrate::{
+    Control as Steps, EstimatingStep, IntegrationError, MethodControl, MethodError, MethodPlace,
+};
 use gauss_runtime::prelude::*;
 
 use super::outcome::{InContact, Outcome, columns, energies, happened, number_of_end, row};

@@ -10,7 +10,7 @@ use super::step::{Absent, MethodStep};
 use crate::integrate::{EstimatingStep, MethodControl, MethodPair, OneStep, Rosenbrock, Taylor};
 use crate::testing::FreeTop;
 
-type Plain = MethodControl<f64>;
+type AnyKernelControl = MethodControl<f64>;
 type Full = MethodControl<f64, Rosenbrock, Taylor>;
 
 #[test]
@@ -69,8 +69,8 @@ fn the_table_says_what_methods_say() {
             let order = EstimatingStep::<FreeTop<f64>>::estimate_order(&pair);
             assert!(method.order().is_some_and(|of| (0.0..=1.0).contains(&(f64::from(of) - order))), "{method}");
         }
-        let equal = Plain::new(method, StepSetting::Equal(0.1)).map(drop);
-        let tolerant = Plain::new(method, StepSetting::tolerant(1e-9, 1e-9)).map(drop);
+        let equal = AnyKernelControl::new(method, StepSetting::Equal(0.1)).map(drop);
+        let tolerant = AnyKernelControl::new(method, StepSetting::tolerant(1e-9, 1e-9)).map(drop);
         let lacks = method.clause().map_or(Ok(()), |clause| Err(MethodError::Clause(method, clause)));
         assert_eq!(equal, if method.takes_length() { lacks } else { Err(MethodError::NoLength(method)) });
         assert_eq!(tolerant, if method.keeps_tolerances() { lacks } else { Err(MethodError::NoEstimate(method)) });

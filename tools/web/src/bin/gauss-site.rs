@@ -1,5 +1,5 @@
-//! Builds the site: `cargo run -p gauss-web --bin gauss-site [-- FOLDER]`, by default `target/site`. It needs mdBook with
-//! KaTeX (`cargo install mdbook mdbook-katex`) and `rustup target add wasm32-unknown-unknown`.
+//! Builds the site: `cargo run -p gauss-web --bin gauss-site [-- FOLDER]`, by default `target/site`. It needs mdBook
+//! with KaTeX (`cargo install mdbook mdbook-katex`) and `rustup target add wasm32-unknown-unknown`.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
