@@ -13,6 +13,8 @@ pub struct Description {
     /// Coordinates, with the states of elements behind them, in the order of the clauses. In a configuration all
     /// scalars stand behind all others.
     pub coordinates: Vec<Quantity>,
+    /// Number of the states of elements among the coordinates.
+    pub states: usize,
     /// Speeds, in their order.
     pub speeds: Vec<Quantity>,
     /// Inputs, in their order.

@@ -70,6 +70,10 @@ macro_rules! forward_system {
         fn smoothness(&self) -> $crate::system::Smoothness {
             self.$field.smoothness()
         }
+        #[inline]
+        fn states(&self) -> usize {
+            self.$field.states()
+        }
         $crate::forward_system!(@method $attributes $field
             kinematics(q: &Self::Configuration, z: &Self::Speeds)
                 -> <Self::Configuration as $crate::configuration::Configuration>::Tangent);

@@ -86,6 +86,13 @@ pub trait GaussSystem {
         z: &Self::Speeds,
     ) -> <Self::Configuration as Configuration>::Tangent;
 
+    /// Number of the states of elements of this system: [`STATES`](Self::STATES), but of models that come at run time,
+    /// whose types do not know them.
+    #[inline(always)]
+    fn states(&self) -> usize {
+        Self::STATES
+    }
+
     /// q̇ with the rates ẋ = f(t, q, z, x, input) of the [states](Self::STATES) of elements: what a configuration is
     /// integrated by. Without states it is [`kinematics`](Self::kinematics). Who wraps a system hands this on, too.
     #[inline(always)]

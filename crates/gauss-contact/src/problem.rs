@@ -190,7 +190,7 @@ impl<'k, K: ContactSystem> Problem for InModeProblem<'k, K> {
         } else {
             self.loads(*t, q, y).acceleration()
         };
-        let configuration = match K::STATES {
+        let configuration = match self.system.states() {
             0 => self.system.kinematics(*t, q, y),
             _ => self.system.configuration_rates(*t, q, y, &self.input(*t, q, y)),
         };

@@ -105,6 +105,8 @@ struct Sizes {
     speeds: usize,
     inputs: usize,
     multipliers: usize,
+    /// Of elements.
+    states: usize,
 }
 
 /// Which models have a method.
@@ -224,7 +226,8 @@ impl<'k, const Q: usize, const Z: usize, I: Inputs, const CONSTRAINED: bool> Sys
             program::Smoothness::Kinks => Smoothness::Kinks,
             program::Smoothness::Jumps => Smoothness::Jumps,
         };
-        let sizes = Sizes { configuration: q, speeds: z, inputs: u, multipliers };
+        let states = model.description().states;
+        let sizes = Sizes { configuration: q, speeds: z, inputs: u, multipliers, states };
         let keeps_energy = model.description().keeps_energy;
         Ok(Self { methods, groups, sizes, smoothness, keeps_energy, inputs: std::marker::PhantomData })
     }
@@ -385,6 +388,10 @@ impl<const Q: usize, const Z: usize, I: Inputs, const CONSTRAINED: bool> GaussSy
 
     fn keeps_energy(&self) -> bool {
         self.keeps_energy
+    }
+
+    fn states(&self) -> usize {
+        self.sizes.states
     }
 
     fn kinematics(&self, t: f64, q: &MixedConfiguration<Q>, z: &SVector<f64, Z>) -> MixedVector<Q> {

@@ -1,7 +1,7 @@
 //! Contacts of models that come at run time beside those of compiled kernels of the same structs: every method of
 //! `ContactSystem`, runs from event to event, runs in steps; with room for what there is, and for more.
 
-use gauss_contact::{ContactRun, ContactSteps};
+use gauss_contact::{ContactError, ContactRun, ContactSteps};
 use gauss_jit::{Inputs, Kernel, Model, NoSystem, SystemWithContacts};
 use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::forces::Columns;
@@ -323,4 +323,40 @@ fn contacts_are_left_out_by_name_alone() {
     assert!(
         Simulation::new(&system).without_contacts().adaptive(1e-9, 1e-9).run(start, SVector::zeros(), 0.0..0.1).is_ok()
     );
+}
+
+// A state that a drive reads, and one that nothing reads, beside a range that is never touched.
+scene!(slider, {
+    #[gauss(
+        coordinates(x), particle(mass = 1.3, position = [x, 0, 0]),
+        states(s = (x - s) / 0.9, w = abs(rate(x))), drive(x = -5 * s - x - 1),
+        range(x, from = -9, to = 9),
+    )]
+    pub struct Slider {}
+});
+
+/// Elements have states in runs from event to event; steps of one length, which do not follow them, say how many.
+#[test]
+fn states_of_elements_beside_contacts() {
+    let own = kernel(slider::SOURCE);
+    let system = own.contact_system::<3, 1, (), 2>().expect("room");
+    let (q, z) = (system.system().configuration(&[0.4, 0.4, 0.0]), SVector::from([0.3]));
+    let told = |error: ContactError| assert!(error.to_string().contains("2 states"), "{error}");
+    told(ContactSteps::new(&system, 1e-3).run(q, z, 0.0..0.1).err().expect("steps refuse them"));
+    let run = ContactRun::new(&system).adaptive(1e-10, 1e-12).run(q, z, 0.0..0.4).expect("a run");
+    let smooth = own.without_contacts();
+    let smooth = smooth.system::<3, 1, ()>().expect("room");
+    let without = Simulation::new(&smooth).adaptive(1e-10, 1e-12).run(q, z, 0.0..0.4).expect("a run");
+    let compiled = slider::Slider {}.kernel().expect("a kernel");
+    let start = SVector::from([0.4, 0.4, 0.0]);
+    let same = ContactRun::new(&compiled).adaptive(1e-10, 1e-12).run(start, z, 0.0..0.4).expect("a run");
+    for (k, end) in same.last().q.iter().enumerate() {
+        // Some ten steps, each with an error of 1e-10 of numbers below 1; more at the kink.
+        let others = [run.last().q.as_slice()[k], without.last().q.as_slice()[k]];
+        assert!(others.iter().all(|other| (other - end).abs() < 1e-8), "{k}: {end} and {others:?}");
+    }
+    // By scipy's DOP853 at 1e-13, of the four equations written out, up to the kink and from there.
+    let expected = [0.31009902, 0.3951656, 0.12421191];
+    let found = run.last().q;
+    assert!(found.as_slice().iter().zip(expected).all(|(found, own)| (found - own).abs() < 1e-8), "{found:?}");
 }

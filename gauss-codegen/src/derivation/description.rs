@@ -27,6 +27,7 @@ pub fn description(derived: &Derived<'_, '_>) -> Description {
         keeps_energy: derived.keeps_energy(),
         remarks: remarks.map(|own| Remark { text: without_rust(&own.text), ignored: own.ignored }).collect(),
         is_constrained: derived.subject.can_drift,
+        states: derived.subject.system.scene.states.len(),
     }
 }
 

@@ -106,8 +106,9 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         const { assert!(Self::ROWS <= Place::MAX as usize, "steps number rows by two bytes") }
         assert!(memory.as_mut().len() >= Self::MEMORY, "steps of this system need {} numbers", Self::MEMORY);
         crate::start::check(kernel, t, &q, &z)?;
-        if K::STATES > 0 {
-            let kind = ContactErrorKind::States { states: K::STATES };
+        let states = kernel.states();
+        if states > 0 {
+            let kind = ContactErrorKind::States { states };
             return Err(ContactError { contact: None, time: t, kind });
         }
         let q = q.renormalise();
