@@ -324,3 +324,45 @@ fn simulations_take_models_at_run_time() {
     let work = end.q.as_slice()[0] - q.as_slice()[0];
     assert!((system.energy(0.0, &end.q, &end.z) - energy - work).abs() < 1e-8);
 }
+
+/// Supplied power is all that changes the energy, also where the time moves what has no mass: belts, frames that turn,
+/// the far end of a damper. By differences along the motion; the last two scenes have two elements and no guides.
+#[test]
+fn powers_of_what_the_time_moves() {
+    let belt = "coordinates(a), particle(mass = 2, position = [a, 0, 0])";
+    let wheel = "coordinates(a), body(b, rotation = rotation_z(a), mass = 1, inertia = 1)";
+    let turning = "frame(c, rotation = rotation_z(0.5 * t))";
+    for scene in [
+        format!("{belt}, friction(f, along = a + t, viscous = 1.5)"),
+        format!("{belt}, friction(f, along = a - 2 * t, dry = 3, width = 0.1)"),
+        format!("{belt}, friction(f, from = [a, 0, 0], to = [5 + t, 0, 0], viscous = 1.5)"),
+        format!("{belt}, spring(f, along = a - t * t, stiffness = 4, damping = 1)"),
+        format!("{wheel}, {turning}, coupling(f, body = b, other = c, viscous = 1.5)"),
+        format!("{wheel}, {turning}, torque(f, body = b, value = [0, 0, 1], reaction = c)"),
+        format!("{belt}, friction(f, along = a, viscous = 1.5), force(g, at = [a, 0, 0], value = [sin(t), 0, 0])"),
+        format!("{wheel}, torque(f, body = b, value = [0, 0, sin(t)]), friction(h, along = a, viscous = 0.2)"),
+    ] {
+        let model = match Model::from_source(&format!("#[gauss({scene})] struct Scene {{}}")) {
+            Ok(model) => model,
+            Err(mistakes) => panic!("{scene}: {mistakes}"),
+        };
+        let kernel = model.kernel(&[]).unwrap();
+        for (t, q, z) in [(0.6, 0.4, 0.7), (-1.1, 2.0, -0.3), (0.2, -0.5, 0.0)] {
+            let a = kernel.acceleration(t, &[q], &[z], &[]).unwrap()[0];
+            let energy = |h: f64| {
+                let (t, q, z) = (t + h, q + h * z + 0.5 * h * h * a, z + h * a);
+                let potential = kernel.potential_energy(t, &[q]).unwrap_or(0.0);
+                kernel.kinetic_energy(t, &[q], &[z]).unwrap() + potential
+            };
+            let step = 1e-5;
+            let rate = (energy(step) - energy(-step)) / (2.0 * step);
+            let supplied = kernel.call("supplied_power", &[&[t], &[q], &[z], &[]]).unwrap()[0];
+            // Third derivatives of some hundred times the square of the step, and roundings over it.
+            let bound = 1e3 * step * step + 100.0 * f64::EPSILON * energy(0.0).abs().max(1.0) / step;
+            assert!((rate - supplied).abs() <= bound, "{scene}: {rate} {supplied}");
+        }
+        if scene.contains("sin(t)") {
+            assert_eq!(kernel.method("powers").unwrap().outputs(), 2, "{scene}");
+        }
+    }
+}

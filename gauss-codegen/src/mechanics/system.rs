@@ -24,7 +24,7 @@ use crate::mechanics::links::link::Link;
 use crate::mechanics::links::tree::{Tree, UngatheredResidual};
 use crate::mechanics::links::working::WorkingTree;
 use crate::mechanics::loads::account::account_formulas;
-use crate::mechanics::loads::forces::{Force, Loads, forces_of, potential_of, potential_of_forces};
+use crate::mechanics::loads::forces::{Action, Force, Loads, forces_of, potential_of, potential_of_forces};
 use crate::mechanics::scene::SystemScene;
 use crate::mechanics::tidy::{compact, sums, tidy};
 
@@ -113,6 +113,13 @@ impl<'g> System<'g> {
         if system.balance_of_all().is_none() {
             velocities.extend(system.momentum());
             velocities.push(system.scene.tree.twice_kinetic_energy());
+        }
+        // Places of forces that the time moves take energy in and out as well, whether they have mass or not.
+        let scene = &system.scene;
+        for element in &scene.elements {
+            if let Action::Forces(forces) = &element.action {
+                velocities.extend(forces.iter().flat_map(|force| force.velocities(&scene.tree.links, &scene.rates)));
+            }
         }
         // What has no value at rest does not vanish there.
         let moves = |e: &Expr<'g>| !tidy(e.substitute(&at_rest)).is_zero();

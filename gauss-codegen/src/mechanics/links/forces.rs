@@ -37,6 +37,25 @@ impl<'g> Force<'g> {
         }
     }
 
+    /// The velocities by which its power is a sum; none of a dissipation function, whose power is that of speeds.
+    pub fn velocities(&self, links: &[Link<'g>], rates: &Map<u32, Expr<'g>>) -> Vec<Expr<'g>> {
+        match self {
+            Force::AtPoint { at, .. } => at.iter().map(|e| e.derivative(rates)).collect(),
+            Force::OnLink { link, .. } => {
+                let link = &links[*link];
+                let unit = |k: usize| std::array::from_fn(|i| link.frame.graph.integer(i64::from(i == k)));
+                let along = |k: usize| link.frame.dot(&link.frame.body_vector(unit(k)), &link.velocity);
+                (0..3).map(along).chain(link.angular_velocity).collect()
+            }
+            Force::Between { links: pair, torque } => {
+                let unit = |k: usize| std::array::from_fn(|i| torque[0].graph().integer(i64::from(i == k)));
+                (0..3).map(|k| power_between(links, *pair, &unit(k))).collect()
+            }
+            Force::OnRate { rate, .. } => vec![*rate],
+            Force::Dissipation(_) => Vec::new(),
+        }
+    }
+
     /// Its generalised forces where it does not act on one link.
     pub fn generalised(
         &self,
