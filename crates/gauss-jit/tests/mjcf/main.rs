@@ -4,6 +4,7 @@ mod again;
 #[path = "../common/mod.rs"]
 mod common;
 mod contacts;
+mod every;
 mod mujoco;
 mod refusals;
 mod scenes;

@@ -37,7 +37,11 @@ fn loads_without_a_counterpart_are_named() {
     );
     // A spring that pushes away, a damper that feeds, a law of time.
     check(&cart("spring(away, along = x, stiffness = 1), potential = -x * x"), &["`potential`: a constant force"]);
-    check(&cart("drive(feed, x = rate(x))"), &["`feed`: a constant force, or a law that gives energy"]);
+    check(&cart("drive(feed, x = rate(x))"), &["`feed`: a constant force, a law that gives energy"]);
+    // A pose has one damping for all of its six rates.
+    let free = "coordinates(craft: Pose), body(hull, pose = craft, mass = 1, inertia = 1),
+                drag(air, body = hull, linear = [2, 2, 2, 1, 1, 1])";
+    check(free, &["`air`: a constant force, a law that gives energy, or one that differs among the axes"]);
     check(&cart("drive(shake, x = sin(t))"), &["`shake`: no sum"]);
     // Laws that are linear where numbers are of the size 1, and forces of a time that nobody looks at.
     check(&cart("input(u), drive(limited, x = clamp(u, -500, 500))"), &["`limited`: no sum"]);
