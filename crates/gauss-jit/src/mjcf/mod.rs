@@ -84,22 +84,28 @@ impl Mjcf {
     /// spheres with planes.
     pub fn new(source: &str, parameters: &[(&str, &[f64])]) -> Result<Self, MjcfError> {
         let model = Model::from_source(source).map_err(MjcfError::Scene)?;
+        let mut parts = Parts { mistakes: refuse(&model), ..Parts::default() };
+        // States of elements stand among coordinates, and tables have no numbers.
+        if has_states(&model) || !model.table_constants().is_empty() {
+            return Err(MjcfError::NoCounterpart(parts.mistakes));
+        }
         let kernel = model.kernel(parameters).map_err(MjcfError::Parameters)?;
         let read = kernel.numbers(parameters).map_err(MjcfError::Parameters)?;
         let bodies = Bodies::of_text(source).map_err(|error| MjcfError::NoCounterpart(vec![error.to_string()]))?;
-        // States of elements stand among coordinates.
-        let (mut parts, has_states) = (Parts::default(), model.methods().any(|name| name == "configuration_rates"));
-        parts.mistakes = refuse(&model, has_states);
-        if has_states {
-            return Err(MjcfError::NoCounterpart(parts.mistakes));
-        }
         let scene = SceneNumbers::new(kernel, bodies, read);
         let tree =
             JointTree::of(&scene).map_err(|list| MjcfError::NoCounterpart([parts.mistakes.clone(), list].concat()))?;
         let masses = scene.masses();
         parts.joints = armatures(&scene, &tree, &masses, &mut parts.mistakes);
-        if !scene.bodies.elements.is_empty() && scene.mass_matrix(&scene.origin()).is_some() {
-            Forces::new(&scene, &tree, &mut parts).add(&masses);
+        match scene.mass_matrix(&scene.origin()) {
+            _ if scene.bodies.elements.is_empty() => {}
+            Some(_) => Forces::new(&scene, &tree, &mut parts).add(&masses),
+            // Unless it was said of all states.
+            None if parts.mistakes.is_empty() => parts.mistakes.push(
+                "the speeds do not determine the rates of the joints where these are at 0, so that no force is known there"
+                    .to_owned(),
+            ),
+            None => {}
         }
         parts.lost.extend(model.description().remarks.iter().filter(|own| own.ignored).map(|own| own.text.clone()));
         Contacts::new(&scene, &tree, &mut parts).add();
@@ -161,8 +167,12 @@ fn reads_time(scene: &SceneNumbers) -> bool {
     own.chain([&scene.bodies.program]).any(reads)
 }
 
+fn has_states(model: &Model) -> bool {
+    model.methods().any(|name| name == "configuration_rates")
+}
+
 /// Clauses that have no counterpart whatever their numbers are.
-fn refuse(model: &Model, has_states: bool) -> Vec<String> {
+fn refuse(model: &Model) -> Vec<String> {
     let mut mistakes = Vec::new();
     let has = |method: &str| model.methods().any(|name| name == method);
     if model.description().is_constrained || has("position_residual") || has("velocity_residual") {
@@ -171,7 +181,7 @@ fn refuse(model: &Model, has_states: bool) -> Vec<String> {
                 .to_owned(),
         );
     }
-    if has_states {
+    if has_states(model) {
         mistakes.push("elements with states (`states`) are none of MuJoCo's actuators with activations".to_owned());
     }
     if !model.table_constants().is_empty() {

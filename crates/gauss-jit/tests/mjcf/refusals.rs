@@ -48,6 +48,7 @@ fn loads_without_a_counterpart_are_named() {
     check(&cart("drive(late, x = smooth_step(t, 1000, 1001))"), &["the time `t`"]);
     check(&cart("drive(stopped, x = -clamp(x, -400, 400))"), &["`stopped`: no sum"]);
     check(&cart("input(u), states(f = u - f), drive(x = f)"), &["`states`"]);
+    check(&cart("table(push, points = PUSH), drive(x = push(x))"), &["tables (PUSH)"]);
     // Turned by x, the force is along none of the joints and in no axes of the body.
     let turning =
         "coordinates(x, a), body(cart, position = [x, 0, 0], rotation = rotation_y(a), mass = 1, inertia = 1),
