@@ -41,9 +41,9 @@ impl<T: Real> Matrix<T> {
         &self.entries[i * self.size..(i + 1) * self.size]
     }
 
-    /// The values of the entries.
-    pub(crate) fn values(&self) -> Matrix {
-        Matrix { size: self.size, entries: self.entries.iter().copied().map(value).collect() }
+    /// The same matrix in other numbers.
+    pub(crate) fn in_numbers<U>(&self, number: impl Fn(T) -> U) -> Matrix<U> {
+        Matrix { size: self.size, entries: self.entries.iter().copied().map(number).collect() }
     }
 }
 

@@ -46,9 +46,14 @@ impl<T: Real> Bounds<T> {
         Self { largest, weights: [weight(first), weight(second), weight(third)] }
     }
 
+    /// The same bounds in other numbers.
+    pub(crate) fn in_numbers<U>(self, number: impl Fn(T) -> U) -> Bounds<U> {
+        Bounds { largest: number(self.largest), weights: self.weights.map(number) }
+    }
+
     /// The same bounds without derivatives.
     pub(crate) fn values(self) -> Bounds {
-        Bounds { largest: value(self.largest), weights: self.weights.map(value) }
+        self.in_numbers(value)
     }
 
     fn is_circle(self) -> bool {

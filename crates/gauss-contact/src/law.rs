@@ -3,7 +3,6 @@
 use gauss_runtime::contact::Contact;
 use gauss_runtime::real::Real;
 
-use crate::dense::value;
 use crate::friction::Bounds;
 
 /// Data of a contact that its law has before its force is known.
@@ -47,15 +46,15 @@ impl<T: Real> Law<T> {
         Self { on: contact.rolls_on().and_then(place), ..self }
     }
 
-    /// The values.
-    pub(crate) fn values(&self) -> Law {
+    /// The same law in other numbers.
+    pub(crate) fn in_numbers<U>(&self, number: impl Fn(T) -> U) -> Law<U> {
         Law {
             has_normal: self.has_normal,
             on: self.on,
             tangents: self.tangents,
-            friction: value(self.friction),
-            slip: self.slip.map(|slip| slip.map(value)),
-            bounds: self.bounds.values(),
+            friction: number(self.friction),
+            slip: self.slip.map(|slip| slip.map(&number)),
+            bounds: self.bounds.in_numbers(&number),
         }
     }
 

@@ -78,6 +78,7 @@ mod ball;
 mod changeover;
 mod decide;
 mod dense;
+mod directions;
 mod equations;
 mod error;
 mod frame;

@@ -165,6 +165,9 @@ fn direction<T: Real>(reference: [T; 3], slip: [T; 3], rounding: f64, rest: f64)
     if straight { core::array::from_fn(kept) } else { turned }
 }
 
+/// Roundings of accelerations by which a slip may be across its direction as it begins.
+const AMPLIFIED: f64 = 64.0;
+
 /// Part of the derivatives of the configuration up to which the derivative of a closed gap is rounding.
 pub(crate) const UNCLOSED: f64 = 1e-9;
 
@@ -302,11 +305,12 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
         direction(reference, slip, (64.0 * epsilon::<K::Scalar>() * size).max(so_far), self.least.rest)
     }
 
-    /// The rounding of the acceleration of each row at a state.
+    /// The rounding of the acceleration of each row at a state. Where a slip begins it is along its direction by the
+    /// laws: what is across by some roundings is what equations of contacts that depend on one another make of these.
     pub(crate) fn rounding_of_accelerations(
         &self,
         loads: &Loads<K>,
-        (t, q): (K::Scalar, &K::Configuration),
+        (t, q, z): (K::Scalar, &K::Configuration, &K::Speeds),
     ) -> Vec<f64> {
         let (jacobian, d) = (self.kernel.contact_jacobian(t, q), &loads.dynamics.response.delassus);
         let of_row = |row: usize| {
@@ -314,7 +318,25 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
             let each = loads.forces.iter().enumerate();
             64.0 * epsilon::<K::Scalar>() * each.fold(free, |sum, (j, force)| sum + value(d[(row, j)] * *force).abs())
         };
-        (0..K::ContactRows::DIM).map(of_row).collect()
+        let mut grows: Vec<f64> = (0..K::ContactRows::DIM).map(of_row).collect();
+        let rates = self.kernel.contact_rates(t, q, z);
+        for (contact, mode) in self.kernel.contacts().iter().zip(self.modes.iter()) {
+            let Mode::Slides(reference) = mode else { continue };
+            let terms: f64 =
+                tangents(contact).filter_map(|row| jacobian.nth(row)).map(|column| terms(&column, z)).sum();
+            if size(&slip(contact, &rates)) > 64.0 * epsilon::<K::Scalar>() * terms {
+                continue;
+            }
+            let mut rate = [0.0; 3];
+            tangents(contact).zip(&mut rate).for_each(|(row, u)| *u = value(loads.row_acceleration(row)));
+            let reference = reference.map(value);
+            let along = dot(&rate, &reference);
+            let across = size(&[0, 1, 2].map(|k| rate[k] - along * reference[k]));
+            if across <= AMPLIFIED * tangents(contact).map(|row| grows[row]).sum::<f64>() {
+                tangents(contact).for_each(|row| grows[row] = grows[row].max(4.0 * across));
+            }
+        }
+        grows
     }
 
     /// λ at a state.

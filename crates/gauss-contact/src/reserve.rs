@@ -28,9 +28,7 @@ pub(crate) struct Margin {
 /// The forces that are deepest inside.
 #[derive(Clone, Debug)]
 pub(crate) struct Reserve {
-    /// The least margin, in its unit; negative where no forces are inside.
-    pub(crate) least: f64,
-    /// Its size beside the forces.
+    /// The least margin beside the forces; negative where no forces are inside.
     pub(crate) part: f64,
     pub(crate) forces: Vec<f64>,
     /// Forces on the way from the given ones to the deepest that are twice as far as the bounds: of what is squeezed
@@ -186,7 +184,7 @@ pub(crate) fn deepest(given: &[f64], free: &[Vec<f64>], margins: &[Margin], size
     let mut weights: Vec<f64> = margins.iter().map(of).collect();
     let sum: f64 = weights.iter().sum();
     weights.iter_mut().for_each(|weight| *weight /= sum);
-    Reserve { least, part: least / size, forces, near, weights }
+    Reserve { part: least / size, forces, near, weights }
 }
 
 /// The solution of equations that are symmetric and positive definite; none where they are not.

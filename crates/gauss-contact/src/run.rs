@@ -463,7 +463,7 @@ where
         let mut grows = vec![0.0; K::ContactRows::DIM];
         if modes.iter().any(|mode| matches!(mode, Mode::Slides(_))) {
             let loads = system.loads(*t, q, z, &(self.made.input)(*t, q, z));
-            grows = system.rounding_of_accelerations(&loads, (*t, q));
+            grows = system.rounding_of_accelerations(&loads, (*t, q, z));
         }
         let rounding =
             from.sizes(&self.scales).of_rate.into_iter().zip(grows).map(|(at_start, grows)| [at_start, grows]);

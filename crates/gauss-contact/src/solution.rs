@@ -15,6 +15,18 @@ pub(crate) enum State<T = f64> {
     Slides([T; 3]),
 }
 
+impl<T: Copy> State<T> {
+    /// The same state in other numbers.
+    pub(crate) fn in_numbers<U>(&self, number: impl Fn(T) -> U) -> State<U> {
+        match *self {
+            Self::Leaves => State::Leaves,
+            Self::Closed => State::Closed,
+            Self::Sticks => State::Sticks,
+            Self::Slides(along) => State::Slides(along.map(number)),
+        }
+    }
+}
+
 #[derive(Debug)]
 pub(crate) struct Solution<T = f64> {
     /// λ, all rows.

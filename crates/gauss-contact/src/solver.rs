@@ -24,8 +24,7 @@ use alloc::vec::Vec;
 use gauss_runtime::real::Real;
 
 use crate::ball::least_in_ball;
-use crate::dense::{Decomposition, Matrix, norm, size, sum, value};
-use crate::frame::Frame;
+use crate::dense::{Matrix, norm, value};
 use crate::law::{Law, scales};
 use crate::residual::Residual;
 use crate::solution::{Failure, Solution, State};
@@ -98,16 +97,20 @@ impl<T: Real> Contacts<T> {
         (0..self.laws.len()).filter(move |&j| self.laws[j].on == Some(i))
     }
 
-    /// The same problem without derivatives.
-    pub(crate) fn values(&self) -> Contacts {
-        let laws = self.laws.iter().map(Law::values).collect();
+    /// The same problem in other numbers.
+    pub(crate) fn in_numbers<U: Real>(&self, number: impl Fn(T) -> U) -> Contacts<U> {
         Contacts {
-            laws,
+            laws: self.laws.iter().map(|law| law.in_numbers(&number)).collect(),
             first: self.first.clone(),
-            matrix: self.matrix.values(),
-            b: self.b.iter().copied().map(value).collect(),
+            matrix: self.matrix.in_numbers(&number),
+            b: self.b.iter().copied().map(&number).collect(),
             noise: self.noise.clone(),
         }
+    }
+
+    /// The same problem without derivatives.
+    pub(crate) fn values(&self) -> Contacts {
+        self.in_numbers(value)
     }
 
     /// The solution. What contacts do is found by values; forces and directions have the derivatives of the equations
@@ -126,13 +129,7 @@ impl<T: Real> Contacts<T> {
     /// A solution in values with its derivatives, in forces and rates as they are.
     fn followed(&self, found: Solution) -> Solution<T> {
         let number = T::from_f64;
-        let lifted = |state: &State| match *state {
-            State::Leaves => State::Leaves,
-            State::Closed => State::Closed,
-            State::Sticks => State::Sticks,
-            State::Slides(along) => State::Slides(along.map(number)),
-        };
-        let states = found.states.iter().map(lifted).collect();
+        let states = found.states.iter().map(|state| state.in_numbers(number)).collect();
         let (states, forces) = if T::DERIVATIVES {
             self.settled(states)
         } else {
@@ -152,62 +149,6 @@ impl<T: Real> Contacts<T> {
 
     pub(crate) fn rate(&self, row: usize, forces: &[T]) -> T {
         self.matrix.row(row).iter().zip(forces).fold(self.b[row], |sum, (d, force)| d.fma(*force, sum))
-    }
-
-    /// Given states with their forces. Directions of two rows or three are those of the slip.
-    fn settled(&self, mut states: Vec<State<T>>) -> (Vec<State<T>>, Vec<T>) {
-        // The contacts whose directions turn, with the numbers of the planes in which they do.
-        let free = |(i, state): (usize, &State<T>)| {
-            let planes = if matches!(state, State::Slides(_)) { self.laws[i].tangents.saturating_sub(1) } else { 0 };
-            (0..planes).map(move |plane| (i, plane))
-        };
-        let turning: Vec<(usize, usize)> = states.iter().enumerate().flat_map(free).collect();
-        let mut forces = self.forces_in(&states);
-        // Of derivatives each leaves 10⁻⁷.
-        let turns = if T::DERIVATIVES { 3 } else { 0 };
-        for n in 0..if turning.is_empty() { 0 } else { 60 } {
-            let direction = |state: &State<T>| if let State::Slides(along) = state { *along } else { [T::zero(); 3] };
-            let frames: Vec<Frame<T>> = states.iter().map(|state| Frame::of(direction(state))).collect();
-            let miss = self.misses(&turning, &frames, &forces);
-            let before = size(&miss);
-            // Differences of 10⁻⁷ rad: Newton's method in seven digits a step.
-            let turned = |k: usize, by: T| {
-                let mut frames = frames.clone();
-                frames[turning[k].0].turn(turning[k].1, by);
-                frames
-            };
-            let short = T::from_f64(1e-7);
-            let differences: Vec<Vec<T>> = (0..turning.len())
-                .map(|k| {
-                    let frames = turned(k, short);
-                    let near = self.misses(&turning, &frames, &self.forces_in(&along(&states, &frames)));
-                    near.iter().zip(&miss).map(|(near, miss)| (*near - *miss) / short).collect()
-                })
-                .collect();
-            let jacobian = Matrix::from_fn(turning.len(), |i, j| differences[j][i]);
-            let by = Decomposition::new(&jacobian, |i| jacobian.at(i, i).abs()).solve(&miss);
-            let longest = by.iter().fold(0.0_f64, |longest, by| longest.max(value(*by).abs()));
-            let part = if longest > 0.5 { 0.5 / longest } else { 1.0 };
-            let mut next = frames.clone();
-            turning.iter().zip(&by).for_each(|(&(i, plane), by)| next[i].turn(plane, T::from_f64(-part) * *by));
-            let turned = along(&states, &next);
-            let found = self.forces_in(&turned);
-            let ended = part == 1.0 && longest < 1e-5 && size(&self.misses(&turning, &next, &found)) >= before;
-            if ended && n >= turns {
-                break;
-            }
-            (states, forces) = (turned, found);
-        }
-        (states, forces)
-    }
-
-    /// The sines of the angles from the directions of contacts to their slip in the planes of turns, times its size.
-    fn misses(&self, turning: &[(usize, usize)], frames: &[Frame<T>], forces: &[T]) -> Vec<T> {
-        let miss = |&(i, plane): &(usize, usize)| {
-            let each = self.tangents(i).zip(frames[i].across[plane]);
-            -sum(each.map(|(row, across)| across * self.rate(row, forces)))
-        };
-        turning.iter().map(miss).collect()
     }
 }
 
@@ -267,10 +208,10 @@ impl Contacts {
                 let worst = found.residuals.iter().max_by(|a, b| a.worst().total_cmp(&b.worst()));
                 let worst = worst.copied().unwrap_or_default();
                 if found.residuals.iter().all(Residual::holds) {
-                    return Ok(self.shared(found));
+                    return Ok(self.shared(self.unmoved(found)));
                 }
                 if let Some(found) = (correction == 0).then(|| self.swept(&states, &forces)).flatten() {
-                    return Ok(self.shared(found));
+                    return Ok(self.shared(self.unmoved(found)));
                 }
                 let next = self.states(&found.forces, &found.rates);
                 if worst.worst() < best.0.worst() {
@@ -508,7 +449,7 @@ impl Contacts {
     }
 
     /// Rounding of the rate of a row.
-    fn rounding(&self, row: usize, forces: &[f64]) -> f64 {
+    pub(crate) fn rounding(&self, row: usize, forces: &[f64]) -> f64 {
         let terms = self.matrix.row(row).iter().zip(forces).map(|(d, force)| (d * force).abs());
         ROUNDINGS * (1 + self.b.len()) as f64 * f64::EPSILON * terms.fold(self.b[row].abs(), |sum, term| sum + term)
     }
@@ -548,15 +489,6 @@ impl Contacts {
         let off: Vec<f64> = friction.iter().zip(&wanted).map(|(f, w)| f - w).collect();
         Residual { signorini, coulomb, dissipation: norm(&off), rounding }
     }
-}
-
-/// States with the directions of frames.
-fn along<T: Real>(states: &[State<T>], frames: &[Frame<T>]) -> Vec<State<T>> {
-    let of = |(state, frame): (&State<T>, &Frame<T>)| match state {
-        State::Slides(_) => State::Slides(frame.along),
-        state => *state,
-    };
-    states.iter().zip(frames).map(of).collect()
 }
 
 #[cfg(test)]

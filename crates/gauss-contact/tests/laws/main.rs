@@ -1,6 +1,7 @@
 //! The laws of contact, friction and impact in runs, scene by scene, against closed forms.
 
 mod accounts;
+mod border;
 mod bounces;
 mod common;
 mod dry;
