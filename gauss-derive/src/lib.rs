@@ -275,7 +275,7 @@ mod kept;
 /// | clause | meaning |
 /// |---|---|
 /// | `potential = expr` | a potential of coordinates and time; the role `gravity` acts on everything |
-/// | `central_gravity(name, mu = gm, center = […])` | the acceleration −μ d/\|d\|³ of all mass, d from the center; `mu` of fields and numbers, `center` of these and `t` in observer's axes from Ω, by default Ω |
+/// | `central_gravity(name, mu = gm, center = […])` | the acceleration −μ d/\|d\|³ of all mass, d from the center, of each body expanded to second order about its O, which is to be near its mass; `mu` of fields and numbers, `center` of these and `t` in observer's axes from Ω, by default Ω |
 /// | `medium(velocity = […])` | the velocity of the medium, observer's axes, of `t`, fields and numbers: drags, added mass and `relative_velocity` feel it |
 /// | `input(thrust = "N", wind: Vector3 = "m/s", gust: Wrench)` | values that arrive at run time, with their units if these are to be checked; of a wrench force then torque, `gust.force` and `gust.torque` |
 /// | `states(thrust = (command - thrust) / lag, …)` | states of elements, each with its rate: a scalar of what forces may name, states among them, with kinks as in forces. They are scalars of the configuration behind all others, without speeds and without energy: kinetic and potential energy do not have them, constraints and impacts do not move them. In a chart the configuration is `(pose, states)` |
