@@ -55,8 +55,8 @@ impl<'a> Contacts<'a> {
             let is_known = |on: usize| self.parts.contacts.iter().any(|known| known.name == self.list[on].name);
             if !found && !own.rolls_on.is_some_and(is_known) {
                 self.parts.mistakes.push(format!(
-                    "the contact `{}` is neither a range or dry friction of one joint nor that of a point or sphere of a \
-                     body above a plane that stands still",
+                    "the contact `{}` is neither a range or dry friction of one joint nor that of a point or sphere \
+                     of a body above a plane that stands still",
                     own.name
                 ));
             }

@@ -106,8 +106,8 @@ impl<'a> Forces<'a> {
                 let sizes = [constant.amax(), stiffness.amax(), damping.amax()];
                 if sizes != [0.0; 3] && !(self.springs(name, constant, stiffness) && self.dampers(name, damping)) {
                     self.parts.mistakes.push(format!(
-                        "`{name}`: a constant force, a law that gives energy, or one that differs among the axes of a ball \
-                         or of a pose, is none of joints and tendons"
+                        "`{name}`: a constant force, a law that gives energy, or one that differs among the axes of \
+                         a ball or of a pose, is none of joints and tendons"
                     ));
                 }
             }

@@ -102,7 +102,7 @@ impl Mjcf {
             Some(_) => Forces::new(&scene, &tree, &mut parts).add(&masses),
             // Unless it was said of all states.
             None if parts.mistakes.is_empty() => parts.mistakes.push(
-                "the speeds do not determine the rates of the joints where these are at 0, so that no force is known there"
+                "the speeds do not determine the rates of the joints where these are at 0: no force is known there"
                     .to_owned(),
             ),
             None => {}

@@ -6,8 +6,8 @@ import sys
 import mujoco
 import numpy as np
 
-# A document is right to 2e-16 of its largest numbers, and a mass matrix of condition 1e5, as of legs on a trunk, loses five
-# digits of that. A particle on joints has 1e-14 kg m² in the place of 0, beside moments of 1e-3 and more.
+# A document is right to 2e-16 of its largest numbers, and a mass matrix of condition 1e5, as of legs on a trunk, loses
+# five digits of that. A particle on joints has 1e-14 kg m² in the place of 0, beside moments of 1e-3 and more.
 ROUNDING = 1e-10
 POINT = 1e-6
 

@@ -1,5 +1,5 @@
-//! Scenes of examples and those that fuzzing begins with, most of which have no counterpart: each is a document that can
-//! be read again, or an error.
+//! Scenes of examples and those that fuzzing begins with, most of which have no counterpart: each is a document that
+//! can be read again, or an error.
 
 use gauss_jit::{Mjcf, MjcfError, Model};
 

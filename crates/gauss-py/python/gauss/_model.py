@@ -229,8 +229,8 @@ class Kernel(_native.Kernel):
     def mjcf(self):
         """The kernel as an MJCF document, for MuJoCo: a joint for each coordinate, its parameters as numbers.
 
-        Comments say what MuJoCo does in another way, such as contacts. Raises ValueError for what MJCF has no counterpart
-        for, with the clause.
+        Comments say what MuJoCo does in another way, such as contacts. Raises ValueError for what MJCF has no
+        counterpart for, with the clause.
         """
         return _native.mjcf(_text(self.model._recipe), list(_flat(self.parameters).items()))
 
