@@ -12,9 +12,9 @@ use crate::residual::Residual;
 use crate::solution::{Solution, State};
 use crate::solver::Contacts;
 
-/// Roundings of a row to which the slip of a contact that begins to slide is known. Where directions miss those of slips
-/// of rate u by δ, δu is rounding, and friction of contacts whose directions differ by δ is less by a part of δ²/2: u is
-/// known to the power 2/3 of a rounding ρ, ρ^(−1/3) roundings of ρ = 10⁻¹² of a row.
+/// Roundings of a row to which the slip of a contact that begins to slide is known. Where directions miss those of
+/// slips of rate u by δ, δu is rounding, and friction of contacts whose directions differ by δ is less by a part of
+/// δ²/2: u is known to the power 2/3 of a rounding ρ, ρ^(−1/3) roundings of ρ = 10⁻¹² of a row.
 const SLOW: f64 = 1e4;
 /// Roundings to which forces that are as far inside their bounds as they can be are found.
 const INSIDE: f64 = 16.0;

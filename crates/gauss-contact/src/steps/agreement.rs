@@ -2,8 +2,8 @@
 //!
 //! Speeds of a system have units of their own: beside 200 rad/s a metre per second is little and a micrometre per
 //! second nothing, by numbers alone. So in flight each speed is judged by its own size, with what forces add to it in
-//! the step: one that turns passes through zero where forces change it most. Differences of all speeds are told by the kinetic
-//! energy that they would have, which is how they are compared from one attempt to the next.
+//! the step: one that turns passes through zero where forces change it most. Differences of all speeds are told by the
+//! kinetic energy that they would have, which is how they are compared from one attempt to the next.
 //!
 //! In flight, where an attempt costs little, speeds are to agree to [`TIGHT`]: nothing is lost or given then but by the
 //! order of the method, for any length of run. A speed that is zero but for rounding has no digits of its own: where it
@@ -153,7 +153,10 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         if let Some(sizes) = sizes {
             return Difference::new(off, |z| {
                 let mut scaled = *z;
-                (0..K::Speeds::DIM).for_each(|i| scaled.set_component(i, z.component(i) / sizes.component(i).powi(2)));
+                for i in 0..K::Speeds::DIM {
+                    let size = sizes.component(i);
+                    scaled.set_component(i, z.component(i) / (size * size));
+                }
                 scaled
             });
         }
@@ -176,10 +179,11 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
             by.abs() > allowed.component(*i) && (flies || by * off >= 0.0 || by.abs() > 0.5 * off.abs())
         };
         let mut open = (0..K::Speeds::DIM).filter(differs).peekable();
-        open.peek().is_none() || {
-            let least = self.least_sizes(used, ROUNDING);
-            open.all(|i| by(i).abs() <= least(i))
-        }
+        open.peek().is_none()
+            || flies && {
+                let least = self.least_sizes(used, ROUNDING);
+                open.all(|i| by(i).abs() <= least(i))
+            }
     }
 
     /// Whether speeds have settled.

@@ -8,9 +8,9 @@
 //! turns by ωh. Steps without a memory are made three times instead: from speeds that the acceleration without contacts
 //! foresees, and then twice from the mean ones; of what turns by x = ωh a step then takes away x⁶/32, and gives none.
 //!
-//! So a step looks back (`agreement`). In flight speeds that were used are to be the mean ones to rounding, or forces at
-//! the mean ones are to do the same: what does not depend on speeds pays nothing for that. Beside contacts, where a step
-//! costs more, speeds may differ by a part of themselves, or by what would not change one by more than a part
+//! So a step looks back (`agreement`). In flight speeds that were used are to be the mean ones to rounding, or forces
+//! at the mean ones are to do the same: what does not depend on speeds pays nothing for that. Beside contacts, where a
+//! step costs more, speeds may differ by a part of themselves, or by what would not change one by more than a part
 //! [`ALLOWED`] of it: what is left is a growth by at most that part, of a body that turns of its power 4/3: 10⁻⁸. What
 //! dampers differ by there shrinks by itself as long as it is smaller than the difference of the speeds. Else the step
 //! is made again from the end that it had, until speeds agree; where it is too long for that, it is made in parts, and

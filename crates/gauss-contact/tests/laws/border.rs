@@ -49,8 +49,8 @@ fn slides_as_it_has_to(mu: f64, beyond: f64, choose: &mut impl FnMut(usize) -> u
     assert!(error.is_none(), "{name}: {error:?}");
     let found = run.last().unwrap().q.translation;
     let wanted = 0.5 * G * (angle.sin() - mu * angle.cos()).max(0.0) * END * END;
-    // Whether forces hold is known to 16 roundings of 256 (1 + 12) ε of the twelve forces: 10⁻¹¹ of each, of which a row
-    // has some.
+    // Whether forces hold is known to 16 roundings of 256 (1 + 12) ε of the twelve forces: 10⁻¹¹ of each, of which a
+    // row has some.
     let known = 1e-10 * 0.5 * G * END * END;
     assert!((found.x - wanted).abs() < known && found.y.abs() < known, "{name}: {found:?} {wanted:e}");
 }

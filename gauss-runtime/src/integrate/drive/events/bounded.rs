@@ -4,9 +4,9 @@
 //! time, it stays above zero in that part if f₀ + f₁ > L h. Else the part is halved, on the curve of the step, up to
 //! seven times; near zero the curve is replaced by states that the method itself reaches. In what is left, some
 //! thousandths of a step next to zero, the slopes at its ends decide, where those within it are of the cubic that the
-//! ends make; else it is halved again, and named where that is given up. At an eighth of a step they decide already where
-//! the function is a parabola there, as the gaps of what bounces low are: else each of its bounces would be a hundred
-//! steps.
+//! ends make; else it is halved again, and named where that is given up. At an eighth of a step they decide already
+//! where the function is a parabola there, as the gaps of what bounces low are: else each of its bounces would be a
+//! hundred steps.
 
 use crate::integrate::drive::control::Control;
 use crate::integrate::drive::cubic::StepCubic;
