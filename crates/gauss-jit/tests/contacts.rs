@@ -350,13 +350,13 @@ fn states_of_elements_beside_contacts() {
     let compiled = slider::Slider {}.kernel().expect("a kernel");
     let start = SVector::from([0.4, 0.4, 0.0]);
     let same = ContactRun::new(&compiled).adaptive(1e-10, 1e-12).run(start, z, 0.0..0.4).expect("a run");
-    for (k, end) in same.last().q.iter().enumerate() {
+    for (k, end) in same.last().expect("a state").q.iter().enumerate() {
         // Some ten steps, each with an error of 1e-10 of numbers below 1; more at the kink.
-        let others = [run.last().q.as_slice()[k], without.last().q.as_slice()[k]];
+        let others = [run.last().expect("a state").q.as_slice()[k], without.last().q.as_slice()[k]];
         assert!(others.iter().all(|other| (other - end).abs() < 1e-8), "{k}: {end} and {others:?}");
     }
     // By scipy's DOP853 at 1e-13, of the four equations written out, up to the kink and from there.
     let expected = [0.31009902, 0.3951656, 0.12421191];
-    let found = run.last().q;
+    let found = run.last().expect("a state").q;
     assert!(found.as_slice().iter().zip(expected).all(|(found, own)| (found - own).abs() < 1e-8), "{found:?}");
 }
