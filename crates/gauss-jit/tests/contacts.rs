@@ -342,7 +342,7 @@ fn states_of_elements_beside_contacts() {
     let system = own.contact_system::<3, 1, (), 2>().expect("room");
     let (q, z) = (system.system().configuration(&[0.4, 0.4, 0.0]), SVector::from([0.3]));
     let told = |error: ContactError| assert!(error.to_string().contains("2 states"), "{error}");
-    told(ContactSteps::new(&system, 1e-3).run(q, z, 0.0..0.1).err().expect("steps refuse them"));
+    told(ContactSteps::new(&system, 1e-3).run(q, z, 0.0..0.1).map(drop).expect_err("steps refuse them"));
     let run = ContactRun::new(&system).adaptive(1e-10, 1e-12).run(q, z, 0.0..0.4).expect("a run");
     let smooth = own.without_contacts();
     let smooth = smooth.system::<3, 1, ()>().expect("room");
