@@ -105,7 +105,7 @@ struct Sizes {
     speeds: usize,
     inputs: usize,
     multipliers: usize,
-    /// Of elements.
+    /// Number of the states of elements.
     states: usize,
 }
 

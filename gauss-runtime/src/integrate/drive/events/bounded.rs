@@ -3,10 +3,9 @@
 //! Where a function is f₀ and f₁ at the ends of a part of a step of length h and changes by no more than L in a unit of
 //! time, it stays above zero in that part if f₀ + f₁ > L h. Else the part is halved, on the curve of the step, up to
 //! seven times; near zero the curve is replaced by states that the method itself reaches. In what is left, some
-//! thousandths of a step next to zero, the slopes at its ends decide, where those within it are of the cubic that the
-//! ends make; else it is halved again, and named where that is given up. At an eighth of a step they decide already
-//! where the function is a parabola there, as the gaps of what bounces low are: else each of its bounces would be a
-//! hundred steps.
+//! thousandths of a step next to zero, the slopes at its ends decide, as for functions without a bound; at an eighth of
+//! a step already where the function is a parabola there, as the gaps of what bounces low are: else each of its bounces
+//! would be a hundred steps.
 
 use crate::integrate::drive::control::Control;
 use crate::integrate::drive::cubic::StepCubic;
@@ -59,12 +58,6 @@ const AGAIN: u32 = 3;
 
 /// The number of halvings that are left where one looks whether the rest is needed: at an eighth of a step.
 const PLAIN: u32 = HALVINGS - 3;
-
-/// The places within a part at which its slopes are looked at: of no order that turns could keep.
-const WITHIN: [f64; 3] = [0.17, 0.44, 0.79];
-
-/// Parts of fewer resolutions are not halved again.
-const SHORTEST: f64 = 16.0;
 
 /// So many parts are halved again in a step.
 const MORE: u32 = 1024;
@@ -120,11 +113,11 @@ where
             return Ok(None);
         }
         if halvings == 0 {
-            return self.last(a, b, false);
+            return self.last(a, b);
         }
         let middle = 0.5 * (a.0 + b.0);
         if halvings == PLAIN && self.is_plain(a.0, b.0)? {
-            return self.last(a, b, true);
+            return self.last(a, b);
         }
         let m = (middle, self.least(middle)?);
         match self.first(a, m, halvings - 1)? {
@@ -146,41 +139,26 @@ where
         Ok(off.max(off_middle) <= plain && self.most.is_finite())
     }
 
-    /// Whether slopes within a part are those of the cubic that the change of the function in it and the slopes at its
-    /// ends make, to a sixteenth of these. Ends alone agree by chance where turns are between them, as one in two do.
-    fn is_cubic(
-        &mut self,
-        (from, width): Point,
-        change: f64,
-        [leaves, comes]: [f64; 2],
-    ) -> Result<bool, IntegrationErrorKind> {
-        let near = leaves.abs().max(comes.abs()) / 16.0 + 4.0 * self.rounding;
-        for s in WITHIN {
-            let [_, slope] = (self.curve)(from + s * width)?;
-            let ends = (1.0 - s) * (1.0 - 3.0 * s) * leaves + s * (3.0 * s - 2.0) * comes;
-            let off = (width * slope - 6.0 * s * (1.0 - s) * change - ends).abs();
-            if off.is_nan() || off > near {
-                return Ok(false);
-            }
-        }
-        Ok(true)
-    }
-
-    /// The zero in a part that is not halved again, of which the function may be known to be plain.
-    fn last(&mut self, a: Point, b: Point, plain: bool) -> ZeroResult {
+    /// The zero in a part that is not halved again.
+    fn last(&mut self, a: Point, b: Point) -> ZeroResult {
         let start = if a.0 == self.start.0 { self.start } else { (a.0, (self.along)(a.0)?) };
         if start.1 <= 0.0 {
             return self.between(self.start, start);
         }
+        if b.1 <= 0.0 {
+            return self.between(start, b);
+        }
         let width = b.0 - a.0;
         let ([first, leaves], [last, comes]) = ((self.curve)(a.0)?, (self.curve)(b.0)?);
-        let [leaves, comes] = [leaves, comes].map(|slope| width * slope);
+        if leaves < 0.0 && comes > 0.0 {
+            let Some(dip) = below_zero(&mut self.along, a.0, b.0)? else { return Ok(None) };
+            return self.between(start, dip);
+        }
         // As the slopes at its ends make it, to half of them and to rounding.
-        let off = (last - first - 0.5 * (leaves + comes)).abs();
-        let smooth = off <= 0.5 * leaves.abs().max(comes.abs()) + self.rounding && self.most.is_finite();
-        let short = width <= SHORTEST * self.resolution;
-        if plain || short || smooth && self.is_cubic((a.0, width), last - first, [leaves, comes])? {
-            return self.of_cubic(start, b, [leaves, comes]);
+        let off = (last - first - 0.5 * width * (leaves + comes)).abs();
+        let smooth = off <= 0.5 * width * leaves.abs().max(comes.abs()) + self.rounding;
+        if smooth && self.most.is_finite() {
+            return Ok(None);
         }
         if self.more > 0 {
             self.more -= 1;
@@ -188,18 +166,6 @@ where
         }
         let [from, length] = self.times;
         self.bound.sampled(from + a.0 * length, from + b.0 * length);
-        self.of_cubic(start, b, [leaves, comes])
-    }
-
-    /// The zero in a part in which the function has one least value at most, told by its slopes at the ends.
-    fn of_cubic(&mut self, start: Point, b: Point, [leaves, comes]: [f64; 2]) -> ZeroResult {
-        if b.1 <= 0.0 {
-            return self.between(start, b);
-        }
-        if leaves < 0.0 && comes > 0.0 {
-            let Some(dip) = below_zero(&mut self.along, start.0, b.0)? else { return Ok(None) };
-            return self.between(start, dip);
-        }
         Ok(None)
     }
 
