@@ -88,7 +88,9 @@ fn the_published_trajectories_are_reached() {
 
 /// The least-squares slope of log error against log step over the finest steps above the plateau of rounding, which
 /// is below 1e-10: some thousand steps, each with a rounding and what an iteration leaves, magnified by about 20.
-fn order(entry: &Entry, scene: &Scene) -> f64 {
+///
+/// None where fewer than five steps have errors above it.
+fn order(entry: &Entry, scene: &Scene) -> Option<f64> {
     let mut logs: Vec<(f64, f64)> = Vec::new();
     for n in 0..60 {
         let h = 1.2 / scene.about.rate * 0.85_f64.powi(n);
@@ -101,10 +103,11 @@ fn order(entry: &Entry, scene: &Scene) -> f64 {
             Err(_) => {}
         }
     }
-    let logs = &logs[logs.len() - 5..];
+    let logs = &logs[logs.len().checked_sub(5)?..];
     let n = logs.len() as f64;
     let (mx, my) = (logs.iter().map(|p| p.0).sum::<f64>() / n, logs.iter().map(|p| p.1).sum::<f64>() / n);
-    logs.iter().map(|(x, y)| (x - mx) * (y - my)).sum::<f64>() / logs.iter().map(|(x, _)| (x - mx).powi(2)).sum::<f64>()
+    let along = logs.iter().map(|(x, _)| (x - mx).powi(2)).sum::<f64>();
+    Some(logs.iter().map(|(x, y)| (x - mx) * (y - my)).sum::<f64>() / along)
 }
 
 /// The free body and the heavy top are kinder to some methods than general equations are, so that orders may be
@@ -120,7 +123,10 @@ fn errors_fall_with_the_order() {
                 continue;
             }
             if ["body velocities", "body axes", "ω and quaternion"].contains(&entry.chart) {
-                let found = order(&entry, &scene);
+                let Some(found) = order(&entry, &scene) else {
+                    assert!(stated >= 9, "{} is at rounding with the longest steps", named(&scene, &entry));
+                    continue;
+                };
                 assert!(found > f64::from(stated) - 0.3, "{}: {found} instead of {stated}", named(&scene, &entry));
             }
         }
