@@ -305,9 +305,9 @@ impl ContactErrorKind {
                 write!(f, "the closed gap is closing at {rate:e}; start from the state after the impact")
             }
             Self::NonFinite => f.write_str(
-                "gaps, rates, coefficients or forces are not finite: look at the input first, then at the scene; a rim that lies flat (a coin, a \
-                 cylinder on its face) has no lowest point: give points on it contacts of their own in its place, or \
-                 end the run before",
+                "gaps, rates, coefficients or forces are not finite: look at the input first, then at the scene; a \
+                 rim that lies flat (a coin, a cylinder on its face) has no lowest point: give points on it contacts of \
+                 their own in its place, or end the run before",
             ),
             _ => Ok(()),
         }

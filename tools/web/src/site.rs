@@ -22,7 +22,7 @@ pub struct Example {
 pub struct Section {
     /// Its heading.
     pub title: String,
-    /// In the order of the README.
+    /// Its examples, in the order of the README.
     pub examples: Vec<Example>,
 }
 

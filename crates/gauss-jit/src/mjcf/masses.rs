@@ -55,7 +55,7 @@ pub fn jacobian(tree: &JointTree, body: usize, values: &[Value], scene: &SceneNu
 /// The armature of each rate: what the mass matrix has beyond that of the masses.
 ///
 /// # Errors
-/// In a sentence each: what else has inertia.
+/// A sentence for each thing that has inertia beside bodies and armatures.
 pub fn armatures(scene: &SceneNumbers, tree: &JointTree, masses: &[MassData]) -> Result<Vec<f64>, Vec<String>> {
     let list = &scene.bodies.list;
     let mistake = |own: &gauss_codegen::LinkData| {

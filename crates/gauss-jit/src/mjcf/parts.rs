@@ -52,7 +52,7 @@ pub struct Motor {
 pub struct SphereOnPlane {
     pub name: String,
     pub body: usize,
-    /// In the axes of the body.
+    /// Its centre from O, in the axes of the body.
     pub center: [f64; 3],
     pub radius: f64,
     pub normal: [f64; 3],

@@ -24,9 +24,9 @@ pub enum Motion {
     Slide {
         axis: Vector3<f64>,
     },
-    /// About the origin of these axes, in them.
+    /// A ball joint about the origin of these axes, in them.
     Ball(Isometry3<f64>),
-    /// In these axes.
+    /// A free joint with these axes.
     Free(Isometry3<f64>),
 }
 

@@ -57,7 +57,8 @@ pub fn check(statements: &Statements, well: &[bool], context: &mut Context) {
             ContactGeometry::Point(contact) => check_point(statements, clause, contact, &moving, context),
             ContactGeometry::Range { along, .. } if !moving.in_place(along) => context.error(
                 along.span,
-                "the range is that of nothing that moves, as a locked coordinate is; name a coordinate, or a body or point that moves",
+                "the range is that of nothing that moves, as a locked coordinate is; name a coordinate, or a body or point \
+                 that moves",
             ),
             ContactGeometry::Range { .. } => {}
         }

@@ -77,7 +77,7 @@ fn check_unnamed(
                 input.ident
             ),
         );
-    } else if statements.in_chart || (alone && !uncertain && !statements.missed_any(&[Statement::Body])) {
+    } else if statements.in_chart || (alone && !uncertain) {
         for role in [Role::Mass, Role::Inertia].into_iter().filter(|role| !known(*role)) {
             field_shapes::missing_role(input, role, scalar, context);
         }

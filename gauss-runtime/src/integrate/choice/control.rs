@@ -22,7 +22,7 @@ use crate::system::GaussSystem;
 pub enum StepSetting<T> {
     /// All of one length.
     Equal(T),
-    /// As long as a relative and an absolute tolerance allow, and no longer than `largest`.
+    /// Steps as long as a relative and an absolute tolerance allow, and no longer than `largest`.
     Tolerant {
         /// The relative tolerance.
         relative: f64,

@@ -131,7 +131,7 @@ macro_rules! one_step {
         #[derive(Clone, Copy, Debug)]
         #[non_exhaustive]
         pub enum MethodStep<R = Absent> {
-            /// One that estimates its error.
+            /// A method that estimates its error.
             Pair(MethodPair<R>),
             $($(#[$single_about])+ $single,)+
         }

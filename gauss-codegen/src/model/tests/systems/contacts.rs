@@ -316,7 +316,8 @@ fn what_does_not_move() {
             ),
             (
                 "l",
-                "the range is that of nothing that moves, as a locked coordinate is; name a coordinate, or a body or point that moves",
+                "the range is that of nothing that moves, as a locked coordinate is; name a coordinate, or a body or point \
+                 that moves",
             ),
             (
                 "position",
