@@ -114,6 +114,7 @@ def test_batches_are_their_rows_to_the_bit(arm):
     assert arm.acceleration(np.zeros((0, 2)), [0, 0], [1, 2]).shape == (0, 2)
     assert "shoulder: coordinate" in arm.__doc__ and "reactions_at" not in dir(arm)
     # A program that is no method of the class, beside a method that is.
+    assert len(dir(arm)) == len(set(dir(arm)))
     assert "evaluate" in dir(arm) and "q (..., 2): shoulder, elbow" in arm.evaluate.__doc__
     both = arm.evaluate(q, [0, 0], [1, 2])
     assert both[1].tobytes() == arm.acceleration(q, [0, 0], [1, 2]).tobytes()

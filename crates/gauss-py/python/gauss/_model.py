@@ -252,7 +252,7 @@ class Kernel(_native.Kernel):
         super().__setattr__(name, value)
 
     def __dir__(self):
-        return [*super().__dir__(), *self.methods]
+        return sorted({*super().__dir__(), *self.methods})
 
     def __reduce__(self):
         make, nothing = super().__reduce__()
