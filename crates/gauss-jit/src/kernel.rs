@@ -83,7 +83,6 @@ impl Kernel {
     }
 
     /// The numbers that programs of parameters read, of those that the kernel was made of.
-    #[cfg(feature = "mjcf")]
     pub(crate) fn numbers(&self, parameters: &[(&str, &[f64])]) -> Result<Vec<f64>, KernelError> {
         let all = numbers_of(self.model.parameters(), parameters, Vec::new()).map_err(KernelError::Given)?;
         Ok(self.model.derived.data.parameters.read.iter().map(|&k| all[k]).collect())

@@ -5,9 +5,9 @@
 // the functions that generated code calls), `configuration` (groups that are known at run time), `tables` (arrays of
 // tables), `kernel` (methods by name), `rows` (the same of many states), `system` (for `Simulation`, with room that
 // the program says), `contacts` (for runs with contacts, with room for their rows), `cache` (a folder of derivations),
-// `names` (what outlives models), `mjcf` (scenes as files of MuJoCo), `error`; `backends`: `cranelift` (programs →
-// machine code), `lanes` (the same for several rows at once), `machine` (their memory and their calls: the only
-// `unsafe`), `interpreter`, `functions` that all call.
+// `names` (what outlives models), `joints` (scenes as trees of joints), `mjcf`, `urdf` (documents of these), `error`;
+// `backends`: `cranelift` (programs → machine code), `lanes` (the same for several rows at once), `machine` (their
+// memory and their calls: the only `unsafe`), `interpreter`, `functions` that all call.
 mod backends;
 #[cfg(feature = "cache")]
 mod cache;
@@ -15,14 +15,15 @@ mod checks;
 mod configuration;
 mod contacts;
 mod error;
+mod joints;
 mod kernel;
-#[cfg(feature = "mjcf")]
 mod mjcf;
 mod model;
 mod names;
 mod rows;
 mod system;
 mod tables;
+mod urdf;
 
 pub use backends::{Backend, Compiled, CompiledLanes, Interpreter};
 #[cfg(feature = "cranelift")]
@@ -35,11 +36,12 @@ pub use error::{CallError, KernelError, Misgiven, Mistake, Mistakes, Place, Tabl
 pub use gauss_codegen::description::{ContactDescription, Description, Quantity, QuantityKind, Remark};
 pub use gauss_codegen::program::{Functions, UnknownMethods};
 pub use gauss_codegen::{Clause, Field, Notation, Scene, targets};
+pub use joints::DocumentError;
 pub use kernel::{Kernel, Method};
-#[cfg(feature = "mjcf")]
-pub use mjcf::{Mjcf, MjcfError};
+pub use mjcf::Mjcf;
 pub use model::Model;
 #[doc(hidden)]
 pub use names::{kept, kept_axes};
 pub use system::{Inputs, NoSystem, System};
 pub use tables::{Array, Tables};
+pub use urdf::Urdf;

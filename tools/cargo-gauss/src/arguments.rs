@@ -28,7 +28,7 @@ pub enum Command {
 /// Which struct, and what of it.
 #[derive(Args)]
 pub struct Show {
-    /// A Rust file; with `mjcf` also one of a robot, URDF or MJCF.
+    /// A Rust file; with `mjcf` and `urdf` also one of a robot, URDF or MJCF.
     pub file: PathBuf,
     /// Names of structs in it; without any, all structs with `#[derive(GaussDynamics)]`.
     pub names: Vec<String>,
@@ -45,10 +45,10 @@ pub struct Show {
     /// Numbers are of single precision, with `c` and `header`.
     #[arg(long)]
     pub single: bool,
-    /// With `mjcf`: a parameter in its unit, `m=1.5`; of vectors and matrices all numbers; several times.
+    /// With `mjcf` and `urdf`: a parameter in its unit, `m=1.5`; of vectors and matrices all numbers; several times.
     #[arg(long)]
     pub set: Vec<String>,
-    /// With `mjcf`, of a robot's file: a further clause, such as `base = floating`; several times.
+    /// With `mjcf` and `urdf`, of a robot's file: a further clause, such as `base = floating`; several times.
     #[arg(long)]
     pub clause: Vec<String>,
     /// Writes to this file in place of the terminal.
@@ -76,6 +76,8 @@ pub enum Form {
     Casadi,
     /// A model of MuJoCo, by the numbers of `--set`, with comments about what MuJoCo does in another way.
     Mjcf,
+    /// Links and joints of URDF, by the numbers of `--set`, with comments about what URDF does not have.
+    Urdf,
     /// What the derive writes.
     Rust,
     /// Functions of `f64` in Rust that need nothing else.

@@ -3,8 +3,8 @@
 mod arguments;
 mod charts;
 mod create;
+mod documents;
 mod fmu;
-mod mjcf;
 mod package;
 mod page;
 mod python;

@@ -12,7 +12,7 @@ use crate::arguments::{Form, Show};
 use crate::charts::in_chart;
 use crate::shown::{Shown, loss};
 use crate::structs::located;
-use crate::{mjcf, page, robots, structs};
+use crate::{documents, page, robots, structs};
 
 /// Prints it, or writes it to a file.
 ///
@@ -25,11 +25,13 @@ pub fn show(wanted: &Show) -> Result<(), String> {
     if wanted.single && !matches!(wanted.form, Form::C | Form::Header) {
         return Err("`--single` goes with `--as c` and `header`; functions of `--as cpp` take any type".to_owned());
     }
-    if wanted.form == Form::Mjcf {
-        return put(wanted, mjcf::document(wanted)?);
+    if matches!(wanted.form, Form::Mjcf | Form::Urdf) {
+        return put(wanted, documents::document(wanted)?);
     }
     if !(wanted.set.is_empty() && wanted.clause.is_empty()) {
-        return Err("`--set` and `--clause` go with `--as mjcf`; all other forms keep their parameters".to_owned());
+        return Err(
+            "`--set` and `--clause` go with `--as mjcf` and `urdf`; all other forms keep their parameters".to_owned()
+        );
     }
     let file = wanted.file.display().to_string();
     let source = fs::read_to_string(&wanted.file).map_err(|error| format!("{file}: {error}"))?;
@@ -98,7 +100,7 @@ fn text(shown: &Shown, wanted: &Show) -> Result<String, String> {
         Form::Rust => pretty(derivation.rust().cloned().unwrap_or_default()),
         Form::Functions => pretty(targets::rust::source(&functions)),
         // These are no texts of one struct after another.
-        Form::Html | Form::Mjcf => Ok(String::new()),
+        Form::Html | Form::Mjcf | Form::Urdf => Ok(String::new()),
     }
 }
 

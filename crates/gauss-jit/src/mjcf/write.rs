@@ -1,31 +1,34 @@
 //! The document: bodies in bodies, with their joints, then tendons, actuators and contacts.
 
 use gauss_codegen::LinkKind;
-use gauss_runtime::nalgebra::{Isometry3, Matrix3, Vector3};
+use gauss_runtime::nalgebra::{Isometry3, Matrix3, Quaternion, Vector3};
+
+use crate::joints::JointScene;
+use crate::joints::motions::{Joint, Motion, ROUNDING};
+use crate::joints::numbers::MassData;
+use crate::joints::parts::{Motor, SphereOnPlane, Transmission};
+use crate::joints::tag::{OF_TURNS, Tag, comment, section};
+use crate::joints::tree::JointTree;
 
 use super::masses::{self, LEAST};
-use super::numbers::{MassData, SceneNumbers};
-use super::parts::{Parts, Transmission};
-use super::tag::{OF_TURNS, Tag, comment};
-use super::tree::{JointTree, Motion, ROUNDING};
 
 /// A side of a range that nobody gave: MuJoCo has none with one side.
 const FAR: f64 = 1e9;
 
+/// The radius of what touches as a point: MuJoCo has no geoms without size.
+pub const POINT: f64 = 1e-6;
+
 /// A document that is written.
 pub struct Document<'a> {
-    pub scene: &'a SceneNumbers,
-    pub tree: &'a JointTree,
-    pub parts: &'a mut Parts,
-    pub masses: &'a [MassData],
-    /// Rounding of places, which are differences of those of bodies from Ω.
-    pub error: f64,
+    own: &'a mut JointScene,
+    /// Rounding of places.
+    error: f64,
 }
 
 impl<'a> Document<'a> {
-    pub fn new(scene: &'a SceneNumbers, tree: &'a JointTree, parts: &'a mut Parts, masses: &'a [MassData]) -> Self {
-        let reach = tree.places.iter().map(|place| place.translation.vector.amax()).fold(1e-3, f64::max);
-        Self { scene, tree, parts, masses, error: 1e-15 * reach }
+    pub fn new(own: &'a mut JointScene) -> Self {
+        let error = own.error_of_places();
+        Self { own, error }
     }
 
     /// The document. Whatever is found to be wrong on the way is among the mistakes of the parts.
@@ -33,33 +36,34 @@ impl<'a> Document<'a> {
         let mut world = String::new();
         self.members(None, (None, &Isometry3::identity()), 2, &mut world);
         self.children(None).into_iter().for_each(|k| self.body(k, &Isometry3::identity(), 2, &mut world));
-        let mut out = Tag::new(0, "mujoco").word("model", self.scene.kernel.model().name()).open();
+        let mut out = Tag::new(0, "mujoco").word("model", self.own.scene.kernel.model().name()).open();
         out += &comment("written by Gauss, with parameters as numbers; lengths in m, angles in rad, masses in kg");
-        self.parts.lost.iter().for_each(|line| out += &comment(line));
+        self.own.parts.lost.iter().for_each(|line| out += &comment(line));
         let compiler = Tag::new(1, "compiler").word("angle", "radian").word("autolimits", "true");
         out += &compiler.word("inertiafromgeom", "false").close();
-        out += &Tag::new(1, "option").numbers("gravity", self.scene.gravity().iter(), 0.0).close();
-        if !self.parts.contacts.is_empty() {
+        out += &Tag::new(1, "option").numbers("gravity", self.own.scene.gravity().iter(), 0.0).close();
+        if !self.own.parts.contacts.is_empty() {
             out += "  <default><geom contype=\"0\" conaffinity=\"0\"/></default>\n";
         }
         section("worldbody", &(self.planes() + &world), &mut out);
         section("tendon", &self.tendons(), &mut out);
+        section("equality", &self.equalities(), &mut out);
         section("actuator", &self.motors(), &mut out);
         section("contact", &self.pairs(), &mut out);
         out + "</mujoco>\n"
     }
 
-    fn name(&self, body: usize) -> &'a str {
-        &self.scene.bodies.list[body].name
+    fn name(&self, body: usize) -> &str {
+        &self.own.scene.bodies.list[body].name
     }
 
     fn children(&self, parent: Option<usize>) -> Vec<usize> {
-        (0..self.tree.parents.len()).filter(|&k| self.tree.parents[k] == parent).collect()
+        (0..self.own.tree.joints.len()).filter(|&k| self.own.tree.parents[k] == parent).collect()
     }
 
     fn carried(&self, by: Option<usize>, wanted: impl Fn(LinkKind) -> bool) -> Vec<usize> {
-        let list = &self.scene.bodies.list;
-        (0..list.len()).filter(|&k| self.tree.carriers[k] == by && wanted(list[k].kind)).collect()
+        let list = &self.own.scene.bodies.list;
+        (0..list.len()).filter(|&k| self.own.tree.carriers[k] == by && wanted(list[k].kind)).collect()
     }
 
     /// A joint with those below it between which there is no mass and no branch: MuJoCo has several joints at a body.
@@ -68,15 +72,15 @@ impl<'a> Document<'a> {
         loop {
             let last = joints[joints.len() - 1];
             let has_mass = !self.carried(Some(last), |kind| kind != LinkKind::Frame).is_empty();
-            let is_scalar = |k: usize| self.scene.variables[k].is_scalar();
+            let is_scalar = |k: usize| self.own.tree.joints[k].motion.is_scalar();
             match self.children(Some(last))[..] {
                 [only] if !has_mass && is_scalar(last) && is_scalar(only) => {
                     for frame in self.carried(Some(last), |_| true) {
-                        let name = self.name(frame);
-                        self.parts.lost.push(format!("the frame `{name}` is left out: no mass moves with it"));
+                        let name = self.name(frame).to_owned();
+                        self.own.parts.lost.push(format!("the frame `{name}` is left out: no mass moves with it"));
                         if self.has_marks(frame) {
                             let text = format!("`{name}`, at which something acts or touches, has no mass");
-                            self.parts.mistakes.push(text);
+                            self.own.parts.mistakes.push(text);
                         }
                     }
                     joints.push(only);
@@ -93,14 +97,14 @@ impl<'a> Document<'a> {
         let rigid = self.carried(Some(last), |kind| matches!(kind, LinkKind::Rigid { .. }));
         let particles = self.carried(Some(last), |kind| kind == LinkKind::Particle);
         let main = rigid.first().or(particles.first()).copied();
-        let axes = match (&self.tree.motions[last], main) {
+        let axes = match (&self.own.tree.joints[last].motion, main) {
             (Motion::Ball(axes) | Motion::Free(axes), _) => *axes,
-            (_, Some(main)) => self.tree.places[main],
+            (_, Some(main)) => self.own.tree.places[main],
             (Motion::Hinge { anchor, .. }, None) => Isometry3::translation(anchor.x, anchor.y, anchor.z),
             (Motion::Slide { .. }, None) => *above,
         };
         let name = main.map_or_else(|| self.name_of_none(last), |main| self.name(main).to_owned());
-        *out += &Tag::new(depth, "body").word("name", &name).place(&(above.inverse() * axes), self.error).open();
+        *out += &placed(Tag::new(depth, "body").word("name", &name), &(above.inverse() * axes), self.error).open();
         joints.iter().for_each(|&k| self.joint(k, &axes, depth + 1, out));
         match main {
             Some(main) => {
@@ -109,7 +113,7 @@ impl<'a> Document<'a> {
             }
             None => {
                 let text = format!("`{name}` has a mass of {LEAST:e} kg, since in MuJoCo nothing without mass moves");
-                self.parts.lost.push(text);
+                self.own.parts.lost.push(text);
                 let tag = Tag::new(depth + 1, "inertial").word("pos", "0 0 0").number("mass", LEAST);
                 *out += &tag.numbers("diaginertia", &[LEAST; 3], 0.0).close();
             }
@@ -121,8 +125,8 @@ impl<'a> Document<'a> {
 
     /// The name of a body that the scene does not have.
     fn name_of_none(&self, joint: usize) -> String {
-        let joint = &self.scene.variables[joint].name;
-        let taken = |word: &String| self.scene.bodies.list.iter().any(|own| own.name == *word);
+        let joint = &self.own.tree.names[joint];
+        let taken = |word: &String| self.own.scene.bodies.list.iter().any(|own| own.name == *word);
         let numbered = (2..).map(|k| format!("{joint}_link_{k}"));
         std::iter::once(format!("{joint}_link")).chain(numbered).find(|word| !taken(word)).unwrap_or_default()
     }
@@ -137,16 +141,16 @@ impl<'a> Document<'a> {
     ) {
         for k in self.carried(carrier, |_| true).into_iter().filter(|k| Some(*k) != main) {
             let name = self.name(k);
-            let own = self.tree.places[k];
+            let own = self.own.tree.places[k];
             let place = axes.inverse() * own;
-            if self.scene.bodies.list[k].kind == LinkKind::Frame {
+            if self.own.scene.bodies.list[k].kind == LinkKind::Frame {
                 if name != "world" {
-                    *out += &Tag::new(depth, "site").word("name", name).place(&place, self.error).close();
+                    *out += &placed(Tag::new(depth, "site").word("name", name), &place, self.error).close();
                 }
                 self.marks(k, axes, depth, out);
                 continue;
             }
-            *out += &Tag::new(depth, "body").word("name", name).place(&place, self.error).open();
+            *out += &placed(Tag::new(depth, "body").word("name", name), &place, self.error).open();
             self.inertial((k, false), &own, depth + 1, out);
             self.marks(k, &own, depth + 1, out);
             *out += &format!("{}</body>\n", "  ".repeat(depth));
@@ -154,12 +158,18 @@ impl<'a> Document<'a> {
     }
 
     fn inertial(&mut self, (body, is_carrier): (usize, bool), axes: &Isometry3<f64>, depth: usize, out: &mut String) {
-        let own = masses::taken(self.scene, self.tree, (body, is_carrier), &self.masses[body], &mut self.parts.lost);
+        let own = masses::taken(
+            &self.own.scene,
+            &self.own.tree,
+            (body, is_carrier),
+            &self.own.masses[body],
+            &mut self.own.parts.lost,
+        );
         let MassData { mass, center, inertia } = match own {
             Ok(own) => own,
-            Err(mistake) => return self.parts.mistakes.push(mistake),
+            Err(mistake) => return self.own.parts.mistakes.push(mistake),
         };
-        let seen = axes.inverse() * self.tree.places[body];
+        let seen = axes.inverse() * self.own.tree.places[body];
         // The inertia may be a difference of that about O and that of the centre of mass.
         let error = 4e-16 * (inertia.amax() + mass * center.norm_squared());
         let center = seen.rotation * center + seen.translation.vector;
@@ -178,34 +188,34 @@ impl<'a> Document<'a> {
     }
 
     fn has_marks(&self, body: usize) -> bool {
-        self.has_motors(body) || self.parts.contacts.iter().any(|own| own.body == body)
+        self.has_motors(body) || self.own.parts.contacts.iter().any(|own| own.body == body)
     }
 
     fn has_motors(&self, body: usize) -> bool {
         let acts = |on: &Transmission| matches!(on, Transmission::Site { body: own, .. } if *own == body);
-        self.parts.motors.iter().any(|motor| acts(&motor.on))
+        self.own.parts.motors.iter().any(|motor| acts(&motor.on))
     }
 
     /// Sites where motors act on a body, and its spheres that touch.
     fn marks(&self, body: usize, axes: &Isometry3<f64>, depth: usize, out: &mut String) {
-        let seen = axes.inverse() * self.tree.places[body];
+        let seen = axes.inverse() * self.own.tree.places[body];
         if self.has_motors(body) {
             let tag = Tag::new(depth, "site").word("name", format!("{}_motors", self.name(body)));
-            *out += &tag.place(&seen, self.error).close();
+            *out += &placed(tag, &seen, self.error).close();
         }
-        for own in self.parts.contacts.iter().filter(|own| own.body == body) {
+        for own in self.own.parts.contacts.iter().filter(|own| own.body == body) {
             let at = seen.rotation * Vector3::from(own.center) + seen.translation.vector;
             let tag = Tag::new(depth, "geom").word("name", &own.name).word("type", "sphere");
-            *out += &tag.numbers("pos", at.iter(), self.error).number("size", own.radius).close();
+            *out += &tag.numbers("pos", at.iter(), self.error).number("size", own.radius.unwrap_or(POINT)).close();
         }
     }
 
     fn joint(&mut self, k: usize, axes: &Isometry3<f64>, depth: usize, out: &mut String) {
-        let (variable, own) = (&self.scene.variables[k], &self.parts.joints[k]);
-        let tag = Tag::new(depth, "joint").word("name", &variable.name);
+        let (name, own) = (&self.own.tree.names[k], &self.own.parts.joints[k]);
+        let tag = Tag::new(depth, "joint").word("name", name);
         let along =
             |tag: Tag, axis: &Vector3<f64>| tag.numbers("axis", (axes.rotation.inverse() * axis).iter(), OF_TURNS);
-        let mut tag = match &self.tree.motions[k] {
+        let mut tag = match &self.own.tree.joints[k].motion {
             Motion::Hinge { axis, anchor } => {
                 // The point of the axis that is nearest to the body.
                 let arm = anchor - axes.translation.vector;
@@ -215,10 +225,10 @@ impl<'a> Document<'a> {
             }
             Motion::Slide { axis } => along(tag.word("type", "slide"), axis),
             Motion::Ball(_) => tag.word("type", "ball"),
-            Motion::Free(_) if self.tree.parents[k].is_none() => tag.word("type", "free"),
+            Motion::Free(_) if self.own.tree.parents[k].is_none() => tag.word("type", "free"),
             Motion::Free(_) => {
-                let text = format!("`{}` is a pose below another joint, where MuJoCo has no free joint", variable.name);
-                return self.parts.mistakes.push(text);
+                let text = format!("`{}` is a pose below another joint, where MuJoCo has no free joint", name);
+                return self.own.parts.mistakes.push(text);
             }
         };
         if own.stiffness > 0.0 {
@@ -230,21 +240,21 @@ impl<'a> Document<'a> {
         }
         *out += &tag.close();
         if own.range.iter().flatten().count() == 1 {
-            let text = format!("the range of `{}` has one side; the other is {FAR:e}", variable.name);
-            self.parts.lost.push(text);
+            let text = format!("the range of `{}` has one side; the other is {FAR:e}", name);
+            self.own.parts.lost.push(text);
         }
     }
 
     fn tendons(&self) -> String {
         let mut out = String::new();
-        for own in &self.parts.tendons {
+        for own in &self.own.parts.tendons {
             let mut tag = Tag::new(2, "fixed").word("name", &own.name);
             if own.stiffness > 0.0 {
                 tag = tag.number("stiffness", own.stiffness).number("springlength", own.length);
             }
             out += &tag.some("damping", own.damping).open();
             for (k, coefficient) in &own.coefficients {
-                let joint = &self.scene.variables[*k].name;
+                let joint = &self.own.scene.variables[*k].name;
                 out += &Tag::new(3, "joint").word("joint", joint).number("coef", *coefficient).close();
             }
             out += "    </fixed>\n";
@@ -252,13 +262,25 @@ impl<'a> Document<'a> {
         out
     }
 
+    /// Joints that follow others.
+    fn equalities(&self) -> String {
+        let JointTree { names, .. } = &self.own.tree;
+        let equality = |(place, joint): (usize, &Joint)| {
+            let tag = Tag::new(2, "joint").word("name", &names[place]).word("joint1", &names[place]);
+            tag.word("joint2", &names[joint.variable])
+                .numbers("polycoef", &[0.0, joint.ratio, 0.0, 0.0, 0.0], 0.0)
+                .close()
+        };
+        self.own.tree.followers().map(equality).collect()
+    }
+
     fn motors(&self) -> String {
-        let motor = |own: &super::parts::Motor| {
+        let motor = |own: &Motor| {
             let tag = Tag::new(2, "motor").word("name", &own.name);
             let tag = match &own.on {
                 Transmission::Tendon { name } => tag.word("tendon", name),
                 Transmission::Joint { variable, gear } => {
-                    tag.word("joint", &self.scene.variables[*variable].name).numbers("gear", gear, 0.0)
+                    tag.word("joint", &self.own.scene.variables[*variable].name).numbers("gear", gear, 0.0)
                 }
                 Transmission::Site { body, gear } => {
                     tag.word("site", format!("{}_motors", self.name(*body))).numbers("gear", gear, 0.0)
@@ -266,13 +288,13 @@ impl<'a> Document<'a> {
             };
             tag.close()
         };
-        self.parts.motors.iter().map(motor).collect()
+        self.own.parts.motors.iter().map(motor).collect()
     }
 
     /// Planes, each once.
     fn planes(&self) -> String {
-        let first = self.parts.contacts.iter().enumerate().filter(|(k, _)| self.plane(*k) == *k);
-        let plane = |own: &super::parts::SphereOnPlane| {
+        let first = self.own.parts.contacts.iter().enumerate().filter(|(k, _)| self.plane(*k) == *k);
+        let plane = |own: &SphereOnPlane| {
             let at = Vector3::from(own.normal) * own.height;
             let tag = Tag::new(2, "geom").word("name", format!("{}_plane", own.name)).word("type", "plane");
             let tag = tag.word("size", "0 0 1").numbers("pos", at.iter(), self.error);
@@ -283,7 +305,7 @@ impl<'a> Document<'a> {
 
     /// The first contact with the same plane.
     fn plane(&self, k: usize) -> usize {
-        let all = &self.parts.contacts;
+        let all = &self.own.parts.contacts;
         let apart = |other: &usize| {
             let turned = (Vector3::from(all[*other].normal) - Vector3::from(all[k].normal)).norm();
             turned + (all[*other].height - all[k].height).abs()
@@ -292,21 +314,26 @@ impl<'a> Document<'a> {
     }
 
     fn pairs(&self) -> String {
-        let pair = |(k, own): (usize, &super::parts::SphereOnPlane)| {
-            let plane = format!("{}_plane", self.parts.contacts[self.plane(k)].name);
+        let pair = |(k, own): (usize, &SphereOnPlane)| {
+            let plane = format!("{}_plane", self.own.parts.contacts[self.plane(k)].name);
             let tag = Tag::new(2, "pair").word("name", &own.name).word("geom1", plane).word("geom2", &own.name);
             match own.friction {
                 mu if mu > 0.0 => tag.word("condim", 3).numbers("friction", &[mu, mu], 0.0).close(),
                 _ => tag.word("condim", 1).close(),
             }
         };
-        self.parts.contacts.iter().enumerate().map(pair).collect()
+        self.own.parts.contacts.iter().enumerate().map(pair).collect()
     }
 }
 
-/// An element with content, where there is some.
-fn section(name: &str, content: &str, out: &mut String) {
-    if !content.is_empty() {
-        *out += &format!("  <{name}>\n{content}  </{name}>\n");
+/// `pos` and `quat`, of what is not at the origin and not upright.
+fn placed(mut tag: Tag, pose: &Isometry3<f64>, error: f64) -> Tag {
+    if pose.translation.vector.amax() > error {
+        tag = tag.numbers("pos", pose.translation.vector.iter(), error);
     }
+    if pose.rotation.angle() > 4.0 * OF_TURNS {
+        let Quaternion { coords } = pose.rotation.quaternion();
+        tag = tag.numbers("quat", &[coords.w, coords.x, coords.y, coords.z], OF_TURNS);
+    }
+    tag
 }

@@ -97,6 +97,8 @@ class Kernel(_native.Kernel):
         """Writes the kernel as an FMU, of FMI 2.0 or 3.0: source code, and a binary where there is a C compiler."""
     def mjcf(self) -> str:
         """The kernel as an MJCF document, for MuJoCo."""
+    def urdf(self) -> str:
+        """The kernel as a URDF document: links, joints, limits, damping and dry friction."""
     def __getattr__(self, name: str) -> Any:
         """Programs that are no methods of all classes: `regressor`, `powers`, those of contacts."""
 

@@ -234,6 +234,14 @@ class Kernel(_native.Kernel):
         """
         return _native.mjcf(_text(self.model._recipe), list(_flat(self.parameters).items()))
 
+    def urdf(self):
+        """The kernel as a URDF document: links with masses, joints with limits, damping, dry friction and mimics.
+
+        Comments say what is lost: gravity, springs, contacts. Raises ValueError for what URDF has no counterpart for,
+        with the clause.
+        """
+        return _native.urdf(_text(self.model._recipe), list(_flat(self.parameters).items()))
+
     def __getattr__(self, name):
         if name.startswith("_") or self.model is None or name not in self.methods:
             raise AttributeError(f"{type(self).__name__} has no `{name}`")

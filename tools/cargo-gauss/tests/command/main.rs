@@ -1,7 +1,7 @@
 //! The command, as Cargo calls it.
 
+mod documents;
 mod languages;
-mod mjcf;
 
 use std::fs;
 use std::path::{Path, PathBuf};

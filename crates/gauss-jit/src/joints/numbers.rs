@@ -7,9 +7,7 @@ use std::ops::Range;
 
 use gauss_codegen::description::QuantityKind;
 use gauss_codegen::{Bodies, LinkKind};
-use gauss_runtime::nalgebra::{
-    DMatrix, DVector, Isometry3, Matrix3, Quaternion, Rotation3, Translation3, UnitQuaternion, Vector3,
-};
+use gauss_runtime::nalgebra::{DMatrix, DVector, Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
 use crate::backends::{Compiled, interpreted};
 use crate::kernel::Kernel;
@@ -333,10 +331,4 @@ impl SceneNumbers {
         let own = self.kernel.call("contact_jacobian", &[&[0.0], &self.configuration(values)]).ok()?;
         Some(inverse.transpose() * DMatrix::from_row_slice(inverse.nrows(), own.len() / inverse.nrows(), &own))
     }
-}
-
-/// A quaternion as MuJoCo writes it: w first.
-pub fn quaternion(turn: &UnitQuaternion<f64>) -> [f64; 4] {
-    let Quaternion { coords } = turn.quaternion();
-    [coords.w, coords.x, coords.y, coords.z]
 }

@@ -5,12 +5,10 @@ use gauss_codegen::description::ContactDescription;
 use gauss_runtime::nalgebra::{DMatrix, DVector, Vector3};
 
 use super::masses::STATES;
+use super::motions::ROUNDING;
 use super::numbers::{SceneNumbers, Sequence, Value, are_small, shortest};
 use super::parts::{Parts, SphereOnPlane};
-use super::tree::{JointTree, ROUNDING};
-
-/// The radius of what touches as a point: MuJoCo has no geoms without size.
-const POINT: f64 = 1e-6;
+use super::tree::JointTree;
 
 /// A state with all numbers of contacts.
 struct ContactState {
@@ -28,8 +26,6 @@ pub struct Contacts<'a> {
     parts: &'a mut Parts,
     list: Vec<ContactDescription>,
     states: Vec<ContactState>,
-    /// Names of what touches as points.
-    points: Vec<String>,
 }
 
 impl<'a> Contacts<'a> {
@@ -44,17 +40,21 @@ impl<'a> Contacts<'a> {
             let mut sequence = Sequence::new();
             all.enumerate().filter_map(|(k, values)| state(scene, 0.3 * k as f64, values, &mut sequence)).collect()
         };
-        Self { scene, tree, parts, list, states, points: Vec::new() }
+        Self { scene, tree, parts, list, states }
     }
 
     pub fn add(mut self) {
         let (mut row, mut vector) = (0, 0);
         for (k, own) in self.list.clone().iter().enumerate() {
-            let found = self.range(k, row, own) || self.dry(row, own) || self.sphere(k, (row, vector), own);
+            let stops = self.range(k, row, own) || self.dry(row, own);
+            if stops {
+                self.parts.stops.push(own.name.clone());
+            }
+            let found = stops || self.sphere(k, (row, vector), own);
             // Of what rolls it is said where its contact is.
             let is_known = |on: usize| self.parts.contacts.iter().any(|known| known.name == self.list[on].name);
             if !found && !own.rolls_on.is_some_and(is_known) {
-                self.parts.mistakes.push(format!(
+                self.parts.acting.push(format!(
                     "the contact `{}` is neither a range or dry friction of one joint nor that of a point or sphere \
                      of a body above a plane that stands still",
                     own.name
@@ -62,21 +62,6 @@ impl<'a> Contacts<'a> {
             }
             row += own.rows();
             vector += if own.axes > 0 { 1 + own.axes } else { 0 };
-        }
-        if !self.points.is_empty() {
-            let names = self.points.join(", ");
-            let text = format!("points touch as spheres of {POINT:e} m, since MuJoCo has none without size: {names}");
-            self.parts.lost.push(text);
-        }
-        if !self.list.is_empty() {
-            self.parts.lost.push(
-                "contacts, ranges and dry friction are exact here and soft in MuJoCo, by `solref` and `solimp`"
-                    .to_owned(),
-            );
-        }
-        let bounces = self.scene.kernel.call("restitution", &[&[0.0], &self.scene.configuration(&self.scene.origin())]);
-        if bounces.is_ok_and(|all| all.iter().any(|e| *e != 0.0)) {
-            self.parts.lost.push("restitution is lost: in MuJoCo a contact bounces by `solref`".to_owned());
         }
     }
 
@@ -150,7 +135,7 @@ impl<'a> Contacts<'a> {
                 return false;
             }
             // In the axes of the body: c − r n is the point.
-            let pose = self.tree.displacement(self.tree.carriers[body], &state.values) * self.tree.places[body];
+            let pose = self.tree.place(body, &state.values);
             let seen = pose.rotation.inverse() * (point - pose.translation.vector);
             rows.view_mut((3 * place, 0), (3, 3)).fill_with_identity();
             rows.view_mut((3 * place, 3), (3, 1)).copy_from(&-(pose.rotation.inverse() * normal));
@@ -168,25 +153,19 @@ impl<'a> Contacts<'a> {
         let Some(slips) = friction(row + 1, own.tangents) else { return false };
         let error = 1e-14 * (1.0 + given.amax());
         let number = |x: f64| shortest(x, error);
-        let radius = Some(number(found[3])).filter(|r| *r > POINT);
-        if radius.is_none() {
-            self.points.push(format!("`{}`", own.name));
-        }
         let center = [found[0], found[1], found[2]].map(number);
         let (normal, height) = ([normal.x, normal.y, normal.z], number(height));
         let contact = SphereOnPlane {
             name: own.name.clone(),
             body,
             center,
-            radius: radius.unwrap_or(POINT),
+            radius: Some(number(found[3])).filter(|r| *r > error),
             normal,
             height,
             friction: slips,
+            turns: own.drills || self.list.iter().any(|other| other.rolls_on == Some(k)),
         };
         self.parts.contacts.push(contact);
-        if own.drills || self.list.iter().any(|other| other.rolls_on == Some(k)) {
-            self.parts.lost.push(format!("friction of drilling and rolling of `{}` is lost", own.name));
-        }
         true
     }
 }

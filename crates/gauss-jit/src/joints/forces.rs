@@ -7,9 +7,10 @@ use gauss_codegen::LinkKind;
 use gauss_runtime::nalgebra::{DMatrix, DVector, Matrix6};
 
 use super::masses::{STATES, jacobian};
-use super::numbers::{MassData, SceneNumbers, Sequence, Value, VariableKind, are_small, shortest};
+use super::motions::{Motion, ROUNDING};
+use super::numbers::{MassData, SceneNumbers, Sequence, Value, Variable, VariableKind, are_small, shortest};
 use super::parts::{Motor, Parts, Tendon, Transmission};
-use super::tree::{JointTree, Motion, ROUNDING};
+use super::tree::JointTree;
 
 /// The name of weight among the elements.
 const GRAVITY: &str = "gravity";
@@ -29,8 +30,8 @@ pub struct Forces<'a> {
     scene: &'a SceneNumbers,
     tree: &'a JointTree,
     parts: &'a mut Parts,
-    /// Elements that are no linear laws.
-    others: Vec<String>,
+    /// Elements that are no linear laws, by their columns.
+    others: Vec<usize>,
 }
 
 impl<'a> Forces<'a> {
@@ -48,10 +49,10 @@ impl<'a> Forces<'a> {
             }
         }
         if !self.others.is_empty() {
-            self.parts.mistakes.push(format!(
+            self.parts.acting.push(format!(
                 "{}: no sum of springs and dampers that are linear in coordinates of joints, and of forces that are \
                  proportional to inputs",
-                self.others.join(", ")
+                self.others.iter().map(|&column| format!("`{}`", elements[column])).collect::<Vec<_>>().join(", ")
             ));
         }
         (0..self.scene.inputs.len()).for_each(|k| self.input(k));
@@ -83,7 +84,7 @@ impl<'a> Forces<'a> {
             let mut sum = DVector::zeros(self.scene.rates());
             let mut size = 0.0;
             for (body, own) in masses.iter().enumerate() {
-                let place = self.tree.displacement(self.tree.carriers[body], &values) * self.tree.places[body];
+                let place = self.tree.place(body, &values);
                 let columns = jacobian(self.tree, body, &values, self.scene);
                 let force = g * own.mass;
                 let torque = (place.rotation * own.center).cross(&force);
@@ -94,7 +95,7 @@ impl<'a> Forces<'a> {
             }
             let given = self.force(column, (0.0, &values), &rates, &inputs);
             if !given.is_some_and(|given| are_small((given - sum).iter(), ROUNDING * (1.0 + size))) {
-                self.parts.mistakes.push("weight is not that of the masses alone (`displaced_mass`)".to_owned());
+                self.parts.acting.push("weight is not that of the masses alone (`displaced_mass`)".to_owned());
                 return;
             }
         }
@@ -103,15 +104,28 @@ impl<'a> Forces<'a> {
     fn element(&mut self, column: usize, name: &str) {
         match self.linear(column) {
             Some(Linear { constant, stiffness, damping }) => {
-                let sizes = [constant.amax(), stiffness.amax(), damping.amax()];
-                if sizes != [0.0; 3] && !(self.springs(name, constant, stiffness) && self.dampers(name, damping)) {
-                    self.parts.mistakes.push(format!(
+                let is_spring = [constant.amax(), stiffness.amax()] != [0.0; 2];
+                let (joints, tendons) = (self.parts.joints.clone(), self.parts.tendons.len());
+                let found = self.springs(name, constant, stiffness) && self.dampers(name, damping.clone());
+                let groups = self.scene.variables.iter().filter(|own| !own.is_scalar());
+                let on_others = groups.flat_map(Variable::rates).any(|k| damping[(k, k)] != 0.0);
+                if !found || is_spring || on_others || self.parts.tendons.len() > tendons {
+                    self.parts.loads.push(name.to_owned());
+                }
+                if !found {
+                    // All of it or nothing.
+                    self.parts.joints = joints;
+                    self.parts.tendons.truncate(tendons);
+                    self.parts.acting.push(format!(
                         "`{name}`: a constant force, a law that gives energy, or one that differs among the axes of \
                          a ball or of a pose, is none of joints and tendons"
                     ));
                 }
             }
-            None => self.others.push(format!("`{name}`")),
+            None => {
+                self.parts.loads.push(name.to_owned());
+                self.others.push(column);
+            }
         }
     }
 
@@ -245,7 +259,7 @@ impl<'a> Forces<'a> {
     /// An input as the control of a motor.
     fn input(&mut self, k: usize) {
         let name = self.scene.inputs[k].clone();
-        let elements: Vec<usize> = (0..self.scene.bodies.elements.len()).collect();
+        let elements = (0..self.scene.bodies.elements.len()).collect::<Vec<_>>();
         let gain = |values: &[Value]| {
             let all = elements.iter().map(|column| Some(self.gains(*column, values)?.column(k).into_owned()));
             all.collect::<Option<Vec<_>>>()?.into_iter().reduce(|sum, own| sum + own)
@@ -255,6 +269,11 @@ impl<'a> Forces<'a> {
             std::iter::once(self.scene.origin()).chain((0..STATES).map(|_| self.scene.sample(&mut sequence))).collect();
         let Some(gains) = states.iter().map(|values| gain(values)).collect::<Option<Vec<_>>>() else { return };
         let size = gains.iter().map(|own| own.amax()).fold(0.0, f64::max);
+        // An element that is no linear law may be none in this input.
+        let own = |column: &usize| self.gains(*column, &states[1]).is_none_or(|gains| gains.column(k).amax() > 0.0);
+        if self.others.iter().any(own) {
+            return;
+        }
         if size == 0.0 {
             self.parts.lost.push(format!("the input `{name}` moves nothing"));
             return;
@@ -265,7 +284,7 @@ impl<'a> Forces<'a> {
         let on = if is_constant { self.along_joints(&name, &first) } else { self.at_body(&states, &gains, size) };
         match on {
             Some(on) => self.parts.motors.push(Motor { name, on }),
-            None => self.parts.mistakes.push(format!(
+            None => self.parts.acting.push(format!(
                 "the input `{name}` is neither a force along joints nor a wrench at one body in its axes"
             )),
         }
@@ -287,7 +306,7 @@ impl<'a> Forces<'a> {
         let [variable] = moved[..] else { return None };
         let mut gear: Vec<f64> = range(variable).map(|place| gain[place]).collect();
         if let (VariableKind::Pose, Motion::Free(axes)) =
-            (self.scene.variables[variable].kind, &self.tree.motions[variable])
+            (self.scene.variables[variable].kind, &self.tree.joints[variable].motion)
         {
             let turned = axes.rotation * gauss_runtime::nalgebra::Vector3::from_column_slice(&gear[..3]);
             gear[..3].copy_from_slice(turned.as_slice());
@@ -301,7 +320,7 @@ impl<'a> Forces<'a> {
         let fits = |body: usize| {
             let (mut rows, mut given) = (DMatrix::zeros(count * states.len(), 6), DVector::zeros(count * states.len()));
             for (k, (values, gain)) in states.iter().zip(gains).enumerate() {
-                let place = self.tree.displacement(self.tree.carriers[body], values) * self.tree.places[body];
+                let place = self.tree.place(body, values);
                 let turn = place.rotation.to_rotation_matrix();
                 let mut turns = Matrix6::zeros();
                 turns.fixed_view_mut::<3, 3>(0, 0).copy_from(turn.matrix());

@@ -1,4 +1,4 @@
-//! Scenes and robots as models of MuJoCo.
+//! Scenes and robots as models of MuJoCo and as URDF.
 
 use std::fs;
 use std::path::Path;
@@ -44,6 +44,19 @@ fn what_is_lost_is_said_line_by_line() {
 }
 
 #[test]
+fn urdf_says_what_it_lacks() {
+    let file = file("documents.rs", BODIES);
+    let output =
+        gauss(&["show", file.to_str().expect("UTF-8"), "Swing", "--as", "urdf", "--set", "m=2", "--set", "k=3"]);
+    let [text, words] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).expect("UTF-8"));
+    assert!(text.contains("<robot name=\"Swing\">") && text.contains("<mass value=\"2\"/>"), "{text}{words}");
+    assert!(words.contains("remark: of `potential` nothing is left"), "{words}");
+    let words =
+        refused(&["show", file.to_str().expect("UTF-8"), "Top", "--as", "urdf", "--set", "m=1", "--set", "i=1,2,2.5"]);
+    assert!(words.contains("no counterpart in URDF: `rotation` turns about a point"), "{words}");
+}
+
+#[test]
 fn what_cannot_be_leaves_nothing_behind() {
     let source = "#[derive(GaussDynamics)] #[gauss(coordinates(x), particle(mass = 1, position = [x, 0, 0]),
                   potential = x * x * x * x, drive(gust, x = sin(t)))] struct Rail {}";
@@ -76,7 +89,7 @@ fn wrong_arguments_are_said() {
         (&[file, "Swing", "--as", "mjcf", "--set", "m=2"], "`k` is not given"),
         (&[file, "Swing", "--as", "mjcf", "--set", "m"], "write `name=number`"),
         (&[file, "Swing", "--as", "mjcf", "--clause", "frames(x)"], "`--clause` goes with the file of a robot"),
-        (&[file, "Swing", "--as", "c", "--set", "m=2"], "go with `--as mjcf`"),
+        (&[file, "Swing", "--as", "c", "--set", "m=2"], "go with `--as mjcf` and `urdf`"),
         (&[file, "Swing", "--as", "mjcf", "--charts", "hybrid"], "`--charts` has no meaning"),
     ];
     for (arguments, words) in cases {

@@ -1,4 +1,4 @@
-"""Kernels as documents of MuJoCo: what is written, what is refused, and the same accelerations there."""
+"""Kernels as MJCF and URDF: what is written, what is refused, the same accelerations in MuJoCo and Pinocchio."""
 
 from xml.etree import ElementTree
 
@@ -37,3 +37,25 @@ def test_mujoco_moves_alike(arm):
         expected = arm.acceleration([angle], [rate], input=[torque])
         # A few roundings of numbers of the size 10.
         assert abs(data.qacc[0] - expected[0]) < 1e-13
+
+
+def test_urdf_has_links_and_joints(arm):
+    root = ElementTree.fromstring(arm.urdf())
+    joint = root.find("joint")
+    assert (joint.get("name"), joint.get("type"), joint.find("child").get("link")) == ("angle", "continuous", "arm")
+    assert root.find("link/inertial/mass").get("value") == "2" and "gravity is lost, (0, 0, -9.81)" in arm.urdf()
+    assert root.find("transmission/actuator").get("name") == "torque"
+    ball = gauss.scene("coordinates(turn: Rotation), body(top, rotation = turn, mass = 1, inertia = 1)")()
+    with pytest.raises(ValueError, match="URDF has no ball joints"):
+        ball.urdf()
+
+
+def test_pinocchio_moves_alike(arm):
+    pinocchio = pytest.importorskip("pinocchio", reason="Pinocchio is not installed: `pip install pin`")
+    model = pinocchio.buildModelFromXML(arm.urdf())
+    data = model.createData()
+    for angle, rate, torque in np.random.default_rng(3).uniform(-2, 2, (10, 3)):
+        q = np.array([np.cos(angle), np.sin(angle)])
+        found = pinocchio.aba(model, data, q, np.array([rate]), np.array([torque]))
+        # A few roundings of numbers of the size 10.
+        assert abs(found[0] - arm.acceleration([angle], [rate], input=[torque])[0]) < 1e-13

@@ -4,8 +4,7 @@ use crate::scenes::examples;
 
 #[test]
 fn numbers_of_contacts_are_those_of_the_scene() {
-    let all = examples();
-    let hopper = all.iter().find(|example| example.name == "hopper").expect("a scene").mjcf();
+    let hopper = examples().iter().find(|example| example.name == "hopper").expect("a scene").mjcf();
     for part in [
         "<joint name=\"b\" type=\"hinge\" axis=\"0 1 0\" frictionloss=\"0.3\" range=\"-0.5 1\"/>",
         "<joint name=\"z\" type=\"slide\" axis=\"0 0 1\" range=\"-1000000000 2\"/>",

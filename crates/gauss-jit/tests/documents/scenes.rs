@@ -1,6 +1,9 @@
 //! Scenes that have a counterpart in MJCF, and their motions in the rates of its joints.
 
-use gauss_jit::{Kernel, Mjcf, Model, QuantityKind};
+use std::sync::OnceLock;
+
+use gauss_codegen::Bodies;
+use gauss_jit::{DocumentError, Kernel, Mjcf, Model, QuantityKind, Urdf};
 use gauss_runtime::nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::common::{Random, robot};
@@ -13,6 +16,11 @@ pub struct Example {
     pub parameters: Vec<(&'static str, Vec<f64>)>,
     /// The linear speeds of a pose are rates of its position, not seen from the body.
     pub hybrid: bool,
+    /// Inputs are 0.
+    pub idle: bool,
+    pub kernel: OnceLock<Kernel>,
+    pub mjcf: OnceLock<Mjcf>,
+    pub urdf: OnceLock<Option<Urdf>>,
 }
 
 /// The state of one joint, as MuJoCo has it: `qpos`, `qvel`, `qacc`.
@@ -27,6 +35,8 @@ pub struct JointState {
 pub struct Motion {
     pub inputs: Vec<f64>,
     pub energy: f64,
+    /// Generalised forces of all loads but weight, of the speeds of the scene.
+    pub forces: Vec<f64>,
     /// Gaps of contacts by their names.
     pub gaps: Vec<(String, f64)>,
     pub joints: Vec<JointState>,
@@ -35,7 +45,9 @@ pub struct Motion {
 /// The scene, the numbers of its parameters.
 fn scene(name: &'static str, clauses: &str, fields: &str, parameters: &[(&'static str, &[f64])]) -> Example {
     let parameters = parameters.iter().map(|(name, own)| (*name, own.to_vec())).collect();
-    Example { name, source: format!("#[gauss({clauses})] struct Scene {{ {fields} }}"), parameters, hybrid: false }
+    let source = format!("#[gauss({clauses})] struct Scene {{ {fields} }}");
+    let (kernel, mjcf, urdf) = Default::default();
+    Example { name, source, parameters, hybrid: false, idle: false, kernel, mjcf, urdf }
 }
 
 /// A robot's file without what is soft in MuJoCo.
@@ -48,12 +60,18 @@ fn file(name: &'static str, format: &str, clauses: &str) -> Example {
 /// A body's mass, centre of mass and inertia about O.
 const BODY: [&[f64]; 3] = [&[1.3], &[0.02, -0.03, -0.25], &[0.21, 0.01, 0.02, 0.01, 0.23, -0.015, 0.02, -0.015, 0.06]];
 
-/// All scenes.
-pub fn examples() -> Vec<Example> {
+/// All scenes. Each is derived once for all tests.
+pub fn examples() -> &'static [Example] {
+    static ALL: OnceLock<Vec<Example>> = OnceLock::new();
+    ALL.get_or_init(all)
+}
+
+fn all() -> Vec<Example> {
     let mut list = written();
     list.extend([
         file("panda.urdf", "urdf", "gravity = 9.81, limits = none, saturation = none, waive(triangle_inequality)"),
         file("quadruped.urdf", "urdf", "base = floating, gravity = 9.81, limits = none, saturation = none"),
+        file("robotiq_2f_85.urdf", "urdf", "gravity = 9.81, limits = none, saturation = none"),
         file("quadrotor.xml", "mjcf", "inputs = actuators"),
         file("arms.xml", "mjcf", "gravity = 9.81"),
         file("limited.xml", "mjcf", "inputs = actuators, saturation = none"),
@@ -170,6 +188,20 @@ fn written() -> Vec<Example> {
             &[],
         ),
         scene(
+            "gears",
+            "coordinates(a, b, y), gravity = 9.81, input(torque), drive(a = torque), armature(a = 0.1),
+             friction(along = b, viscous = 0.2),
+             body(wheel, rotation = rotation_x(a), mass = 1, inertia = 0.1),
+             body(pinion, position = [0, 0.4, 0], rotation = rotation_x(0.4 - 3 * a), mass = 0.3, inertia = 0.01),
+             body(arm, parent = wheel, position = [0, 0, 0.5], rotation = rotation_y(b), mass = 0.4,
+                  center_of_mass = [0.1, 0, 0.2], inertia = [0.05, 0.06, 0.03]),
+             body(hand, parent = arm, position = [0, 0, 0.4], rotation = rotation_z(0.5 * a), mass = 0.2,
+                  center_of_mass = [0, 0.1, 0], inertia = [0.01, 0.01, 0.01]),
+             particle(mass = 0.3, position = [0, y, 1]), particle(mass = 0.1, position = [0, 0, 2 * y])",
+            "",
+            &[],
+        ),
+        scene(
             "branches",
             "coordinates(x, a, b), gravity = 9.81, frame(turned, rotation = rotation_z(a)),
              body(arm, parent = turned, position = [0, 0.1, 0], rotation = rotation_y(b), mass = 1,
@@ -186,13 +218,30 @@ impl Example {
         self.parameters.iter().map(|(name, own)| (*name, &own[..])).collect()
     }
 
-    pub fn mjcf(&self) -> Mjcf {
-        Mjcf::new(&self.source, &self.numbers()).unwrap_or_else(|error| panic!("{}: {error}", self.name))
+    pub fn mjcf(&self) -> &Mjcf {
+        let made = || Mjcf::new(&self.source, &self.numbers());
+        self.mjcf.get_or_init(|| made().unwrap_or_else(|error| panic!("{}: {error}", self.name)))
     }
 
-    pub fn kernel(&self) -> Kernel {
-        let model = Model::from_source(&self.source).unwrap_or_else(|error| panic!("{}: {error}", self.name));
-        model.kernel(&self.numbers()).unwrap_or_else(|error| panic!("{}: {error}", self.name))
+    /// A document of URDF, of all scenes without ball joints.
+    pub fn urdf(&self) -> Option<&Urdf> {
+        let made = || match Urdf::new(&self.source, &self.numbers()) {
+            Ok(made) => Some(made),
+            Err(DocumentError::NoCounterpart { list, .. })
+                if list.iter().all(|line| line.contains("no ball joints")) =>
+            {
+                None
+            }
+            Err(error) => panic!("{}: {error}", self.name),
+        };
+        self.urdf.get_or_init(made).as_ref()
+    }
+
+    pub fn kernel(&self) -> &Kernel {
+        self.kernel.get_or_init(|| {
+            let model = Model::from_source(&self.source).unwrap_or_else(|error| panic!("{}: {error}", self.name));
+            model.kernel(&self.numbers()).unwrap_or_else(|error| panic!("{}: {error}", self.name))
+        })
     }
 
     /// A state of general position with its accelerations.
@@ -205,13 +254,28 @@ impl Example {
         }
         let count = model.description().speeds.iter().map(|own| own.numbers.len()).sum();
         let z = random.list(count);
-        let u = random.list(model.description().inputs.iter().map(|own| own.numbers.len()).sum());
+        let mut u = random.list(model.description().inputs.iter().map(|own| own.numbers.len()).sum());
+        if self.idle {
+            u.fill(0.0);
+        }
         let z_dot = kernel.acceleration(0.0, &q, &z, &u).expect("accelerations");
         let joints = self.joints(kernel, &q, &z, &z_dot);
         let energy = kernel.kinetic_energy(0.0, &q, &z).expect("an energy");
         let contacts = model.description().contacts.iter().map(|own| own.name.clone());
         let gaps = kernel.call("gaps", &[&[0.0], &q]).unwrap_or_default();
-        Motion { inputs: u, energy, gaps: contacts.zip(gaps).collect(), joints }
+        let forces = self.forces(kernel, [&q, &z, &u]);
+        Motion { inputs: u, energy, forces, gaps: contacts.zip(gaps).collect(), joints }
+    }
+
+    fn forces(&self, kernel: &Kernel, [q, z, u]: [&[f64]; 3]) -> Vec<f64> {
+        let elements = Bodies::of_text(&self.source).expect("bodies").elements;
+        let count = kernel.model().arguments("element_forces").map_or(0, |list| list.len());
+        let all = kernel.call("element_forces", &[&[0.0], q, z, u][..count]).unwrap_or_default();
+        let row = |k: usize| {
+            let own = all.iter().skip(k * elements.len()).zip(&elements);
+            own.filter(|(_, name)| *name != "gravity").map(|(force, _)| force).sum()
+        };
+        (0..z.len()).map(row).collect()
     }
 
     /// Joints in the order of the coordinates, whose speeds stand in the same order.
@@ -252,6 +316,19 @@ impl Example {
 }
 
 impl JointState {
+    /// Derivatives of the rates that are seen from the body.
+    pub fn body_accelerations(&self) -> Vec<f64> {
+        let (mut accelerations, rates) = (self.accelerations.clone(), self.body_rates());
+        if let [.., w, x, y, z] = self.place[..]
+            && rates.len() == 6
+        {
+            let turn = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z));
+            let [u, omega, a] = [&rates[..3], &rates[3..], &accelerations[..3]].map(Vector3::from_column_slice);
+            accelerations[..3].copy_from_slice((turn.inverse() * a - omega.cross(&u)).as_slice());
+        }
+        accelerations
+    }
+
     /// Rates that are seen from the body.
     pub fn body_rates(&self) -> Vec<f64> {
         let mut rates = self.rates.clone();

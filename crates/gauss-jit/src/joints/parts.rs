@@ -1,4 +1,4 @@
-//! Parts of a document beside its bodies: attributes of joints, tendons, actuators, contacts.
+//! Attributes of joints, tendons, actuators and contacts: parts of documents beside bodies.
 
 /// Attributes of a joint beside its place.
 #[derive(Clone, Debug, Default)]
@@ -54,22 +54,41 @@ pub struct SphereOnPlane {
     pub body: usize,
     /// Its centre from O, in the axes of the body.
     pub center: [f64; 3],
-    pub radius: f64,
+    /// None of a point.
+    pub radius: Option<f64>,
     pub normal: [f64; 3],
     pub height: f64,
     pub friction: f64,
+    /// Friction of drilling or rolling.
+    pub turns: bool,
 }
 
 /// All of it.
 #[derive(Clone, Debug, Default)]
 pub struct Parts {
-    /// Attributes of the joint of each variable.
+    /// Attributes of each joint of the tree.
     pub joints: Vec<JointAttributes>,
     pub tendons: Vec<Tendon>,
     pub motors: Vec<Motor>,
     pub contacts: Vec<SphereOnPlane>,
-    /// Sentences about what MuJoCo does in another way.
+    /// Elements of the loads that do more than damp single joints and take inputs.
+    pub loads: Vec<String>,
+    /// Contacts that are ranges or dry friction of single joints.
+    pub stops: Vec<String>,
+    /// Sentences about what is left out of the document, or is another thing in it.
     pub lost: Vec<String>,
-    /// Sentences about what has no counterpart.
+    /// Sentences about motions and masses without a counterpart.
     pub mistakes: Vec<String>,
+    /// Sentences about loads and contacts without a counterpart in MJCF.
+    pub acting: Vec<String>,
+}
+
+impl Motor {
+    /// The only joint along which it acts, a scalar, with the force by its input.
+    pub fn joint(&self) -> Option<(usize, f64)> {
+        match &self.on {
+            Transmission::Joint { variable, gear } if gear.len() == 1 => Some((*variable, gear[0])),
+            _ => None,
+        }
+    }
 }

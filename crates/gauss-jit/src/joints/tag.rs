@@ -2,9 +2,7 @@
 
 use std::fmt::{Display, Write};
 
-use gauss_runtime::nalgebra::Isometry3;
-
-use super::numbers::{quaternion, shortest};
+use super::numbers::shortest;
 
 /// Rounding of directions and quaternions.
 pub const OF_TURNS: f64 = 4e-16;
@@ -42,17 +40,6 @@ impl Tag {
         self.word(name, list.join(" "))
     }
 
-    /// `pos` and `quat`, of what is not at the origin and not upright.
-    pub fn place(mut self, pose: &Isometry3<f64>, error: f64) -> Self {
-        if pose.translation.vector.amax() > error {
-            self = self.numbers("pos", pose.translation.vector.iter(), error);
-        }
-        if pose.rotation.angle() > 4.0 * OF_TURNS {
-            self = self.numbers("quat", &quaternion(&pose.rotation), OF_TURNS);
-        }
-        self
-    }
-
     /// The element without content.
     pub fn close(self) -> String {
         self.0 + "/>\n"
@@ -61,6 +48,13 @@ impl Tag {
     /// Its first tag.
     pub fn open(self) -> String {
         self.0 + ">\n"
+    }
+}
+
+/// An element with content, where there is some.
+pub fn section(name: &str, content: &str, out: &mut String) {
+    if !content.is_empty() {
+        *out += &format!("  <{name}>\n{content}  </{name}>\n");
     }
 }
 

@@ -1,6 +1,6 @@
 //! What has no counterpart in MJCF is an error that names it, all of it at once.
 
-use gauss_jit::{Mjcf, MjcfError};
+use gauss_jit::{DocumentError, Mjcf};
 
 /// A cart, with its clause of coordinates.
 const CART: &str = "coordinates(x), body(cart, position = [x, 0, 0], mass = 1, inertia = 1)";
@@ -8,7 +8,7 @@ const CART: &str = "coordinates(x), body(cart, position = [x, 0, 0], mass = 1, i
 fn refused(clauses: &str) -> Vec<String> {
     let source = format!("#[gauss({clauses})] struct Scene {{}}");
     match Mjcf::new(&source, &[]) {
-        Err(MjcfError::NoCounterpart(list)) => list,
+        Err(DocumentError::NoCounterpart { list, .. }) => list,
         Err(error) => panic!("{clauses}: {error}"),
         Ok(made) => panic!("{clauses}: {}", made.xml()),
     }
@@ -65,7 +65,7 @@ fn motions_without_a_counterpart_are_named() {
         &["`particle_1` moves as a function of time"],
     );
     let geared = "coordinates(a), body(one, rotation = rotation_x(a), mass = 1, inertia = 1),
-                  body(two, rotation = rotation_z(2 * a), mass = 1, inertia = 1)";
+                  body(two, rotation = rotation_z(a * a), mass = 1, inertia = 1)";
     check(geared, &["the place of `two` is no product of joints, one for each of `a`"]);
     // A screw.
     let screw =
@@ -127,9 +127,9 @@ fn contacts_without_a_counterpart_are_named() {
 #[test]
 fn mistakes_of_scene_and_parameters_stay_what_they_are() {
     let source = "#[gauss(coordinates(x), particle(mass = m, position = [x, 0, 0]))] struct Scene { m: f64 }";
-    assert!(matches!(Mjcf::new(source, &[]), Err(MjcfError::Parameters(_))));
-    assert!(matches!(Mjcf::new(source, &[("m", &[-1.0])]), Err(MjcfError::Parameters(_))));
-    assert!(matches!(Mjcf::new(source, &[("m", &[f64::NAN])]), Err(MjcfError::Parameters(_))));
-    assert!(matches!(Mjcf::new("#[gauss(mass = 1)] struct", &[]), Err(MjcfError::Scene(_))));
+    assert!(matches!(Mjcf::new(source, &[]), Err(DocumentError::Parameters(_))));
+    assert!(matches!(Mjcf::new(source, &[("m", &[-1.0])]), Err(DocumentError::Parameters(_))));
+    assert!(matches!(Mjcf::new(source, &[("m", &[f64::NAN])]), Err(DocumentError::Parameters(_))));
+    assert!(matches!(Mjcf::new("#[gauss(mass = 1)] struct", &[]), Err(DocumentError::Scene(_))));
     assert!(Mjcf::new(source, &[("m", &[1.0])]).is_ok());
 }
