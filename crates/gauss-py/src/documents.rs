@@ -13,7 +13,7 @@ type Made = Result<String, DocumentError>;
 fn document(
     py: Python<'_>,
     (source, parameters): (String, Vec<(String, Vec<f64>)>),
-    of: impl Fn(&str, &[(&str, &[f64])]) -> Made + Send,
+    of: impl Fn(&str, &[(&str, &[f64])]) -> Made + Send + 'static,
 ) -> PyResult<String> {
     let made = interruptible(py, move || {
         let parameters: Vec<(&str, &[f64])> = parameters.iter().map(|(name, own)| (&name[..], &own[..])).collect();

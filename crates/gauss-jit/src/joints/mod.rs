@@ -2,8 +2,9 @@
 //!
 //! `numbers`: the scene where its joints have given values; `motions`: joints of one coordinate, seen in the places of
 //! bodies; `tree`: all of them; `masses`: velocities of bodies and armatures; `forces`, `contacts`: what acts, clause
-//! by clause; `parts`: attributes of joints, tendons, actuators, contacts; `tag`: elements of XML.
+//! by clause; `closures`: loops; `parts`: attributes of joints, tendons, actuators, contacts; `tag`: elements of XML.
 
+mod closures;
 mod contacts;
 mod forces;
 pub mod masses;
@@ -21,6 +22,7 @@ use gauss_codegen::program::{ArgumentKind, Input, Program};
 use crate::error::{KernelError, Mistakes};
 use crate::model::Model;
 
+use closures::closures;
 use contacts::Contacts;
 use forces::Forces;
 use numbers::{MassData, SceneNumbers, Variable};
@@ -96,6 +98,13 @@ impl JointScene {
         let scene = SceneNumbers::new(kernel, bodies, read);
         let tree = JointTree::of(&scene).map_err(|list| none([parts.mistakes.clone(), list].concat()))?;
         let masses = scene.masses();
+        let has = |method: &str| model.methods().any(|name| name == method);
+        if model.description().is_constrained || has("position_residual") || has("velocity_residual") {
+            match closures(&scene, &tree) {
+                Ok(found) => parts.closures = found,
+                Err(mistake) => parts.mistakes.push(mistake),
+            }
+        }
         parts.joints = armatures(&scene, &tree, &masses, &mut parts.mistakes);
         match scene.mass_matrix(&scene.origin()) {
             _ if scene.bodies.elements.is_empty() => {}
@@ -163,10 +172,6 @@ fn has_states(model: &Model) -> bool {
 /// Clauses that have no counterpart whatever their numbers are.
 fn refuse(model: &Model) -> Vec<String> {
     let mut mistakes = Vec::new();
-    let has = |method: &str| model.methods().any(|name| name == method);
-    if model.description().is_constrained || has("position_residual") || has("velocity_residual") {
-        mistakes.push("constraints (`constraint`, a loop) are none of a tree of joints".to_owned());
-    }
     if has_states(model) {
         mistakes.push("elements with states (`states`) are neither joints nor actuators".to_owned());
     }

@@ -63,6 +63,14 @@ pub struct SphereOnPlane {
     pub turns: bool,
 }
 
+/// A point that two bodies share, or one body and what stands still.
+#[derive(Clone, Debug)]
+pub struct Closure {
+    pub bodies: [Option<usize>; 2],
+    /// From O, in the axes of each body.
+    pub points: [[f64; 3]; 2],
+}
+
 /// All of it.
 #[derive(Clone, Debug, Default)]
 pub struct Parts {
@@ -71,6 +79,7 @@ pub struct Parts {
     pub tendons: Vec<Tendon>,
     pub motors: Vec<Motor>,
     pub contacts: Vec<SphereOnPlane>,
+    pub closures: Vec<Closure>,
     /// Elements of the loads that do more than damp single joints and take inputs.
     pub loads: Vec<String>,
     /// Contacts that are ranges or dry friction of single joints.

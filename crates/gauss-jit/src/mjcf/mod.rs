@@ -83,5 +83,11 @@ fn lose_softness(own: &mut JointScene) {
         format!("`{name}` follows `{leader}` exactly here; in MuJoCo it is a joint that a soft equality holds")
     });
     lost.extend(follows);
+    if !own.parts.closures.is_empty() {
+        lost.push(
+            "loops hold exactly here; in MuJoCo they are soft equalities (`solref`, `solimp`) that leave out how their directions turn"
+                .to_owned(),
+        );
+    }
     own.parts.lost.append(lost);
 }

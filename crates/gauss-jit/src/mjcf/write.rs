@@ -35,6 +35,7 @@ impl<'a> Document<'a> {
     pub fn written(mut self) -> String {
         let mut world = String::new();
         self.members(None, (None, &Isometry3::identity()), 2, &mut world);
+        world += &self.ends_of_loops(None, &Isometry3::identity(), 2);
         self.children(None).into_iter().for_each(|k| self.body(k, &Isometry3::identity(), 2, &mut world));
         let mut out = Tag::new(0, "mujoco").word("model", self.own.scene.kernel.model().name()).open();
         out += &comment("written by Gauss, with parameters as numbers; lengths in m, angles in rad, masses in kg");
@@ -125,10 +126,14 @@ impl<'a> Document<'a> {
 
     /// The name of a body that the scene does not have.
     fn name_of_none(&self, joint: usize) -> String {
-        let joint = &self.own.tree.names[joint];
+        self.free_name(&format!("{}_link", self.own.tree.names[joint]))
+    }
+
+    /// A name that no body has: that word, or with a number.
+    fn free_name(&self, word: &str) -> String {
         let taken = |word: &String| self.own.scene.bodies.list.iter().any(|own| own.name == *word);
-        let numbered = (2..).map(|k| format!("{joint}_link_{k}"));
-        std::iter::once(format!("{joint}_link")).chain(numbered).find(|word| !taken(word)).unwrap_or_default()
+        let numbered = (2..).map(|k| format!("{word}_{k}"));
+        std::iter::once(word.to_owned()).chain(numbered).find(|word| !taken(word)).unwrap_or_default()
     }
 
     /// Bodies, particles and frames that move with a body, or stand still.
@@ -188,7 +193,9 @@ impl<'a> Document<'a> {
     }
 
     fn has_marks(&self, body: usize) -> bool {
-        self.has_motors(body) || self.own.parts.contacts.iter().any(|own| own.body == body)
+        self.has_motors(body)
+            || self.own.parts.closures.iter().any(|own| own.bodies.contains(&Some(body)))
+            || self.own.parts.contacts.iter().any(|own| own.body == body)
     }
 
     fn has_motors(&self, body: usize) -> bool {
@@ -203,6 +210,7 @@ impl<'a> Document<'a> {
             let tag = Tag::new(depth, "site").word("name", format!("{}_motors", self.name(body)));
             *out += &placed(tag, &seen, self.error).close();
         }
+        *out += &self.ends_of_loops(Some(body), &seen, depth);
         for own in self.own.parts.contacts.iter().filter(|own| own.body == body) {
             let at = seen.rotation * Vector3::from(own.center) + seen.translation.vector;
             let tag = Tag::new(depth, "geom").word("name", &own.name).word("type", "sphere");
@@ -262,7 +270,7 @@ impl<'a> Document<'a> {
         out
     }
 
-    /// Joints that follow others.
+    /// Joints that follow others, and loops.
     fn equalities(&self) -> String {
         let JointTree { names, .. } = &self.own.tree;
         let equality = |(place, joint): (usize, &Joint)| {
@@ -271,7 +279,33 @@ impl<'a> Document<'a> {
                 .numbers("polycoef", &[0.0, joint.ratio, 0.0, 0.0, 0.0], 0.0)
                 .close()
         };
-        self.own.tree.followers().map(equality).collect()
+        let follows = self.own.tree.followers().map(equality);
+        let connect = |k: usize| {
+            let tag = Tag::new(2, "connect").word("name", self.name_of_loop(k));
+            tag.word("site1", self.name_of_end(k, 0)).word("site2", self.name_of_end(k, 1)).close()
+        };
+        follows.chain((0..self.own.parts.closures.len()).map(connect)).collect()
+    }
+
+    fn name_of_loop(&self, k: usize) -> String {
+        self.free_name(&format!("loop_{}", k + 1))
+    }
+
+    fn name_of_end(&self, k: usize, end: usize) -> String {
+        self.free_name(&format!("loop_{}_{}", k + 1, ["from", "to"][end]))
+    }
+
+    /// Points of loops on a body, or on what stands still.
+    fn ends_of_loops(&self, body: Option<usize>, seen: &Isometry3<f64>, depth: usize) -> String {
+        let mut out = String::new();
+        for (k, own) in self.own.parts.closures.iter().enumerate() {
+            for end in (0..2).filter(|&end| own.bodies[end] == body) {
+                let at = seen.rotation * Vector3::from(own.points[end]) + seen.translation.vector;
+                let tag = Tag::new(depth, "site").word("name", self.name_of_end(k, end));
+                out += &tag.numbers("pos", at.iter(), self.error).close();
+            }
+        }
+        out
     }
 
     fn motors(&self) -> String {

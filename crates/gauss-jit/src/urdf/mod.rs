@@ -28,6 +28,9 @@ impl Urdf {
     pub fn new(source: &str, parameters: &[(&str, &[f64])]) -> Result<Self, DocumentError> {
         const FORMAT: &str = "URDF";
         let mut own = JointScene::new(source, parameters, FORMAT)?;
+        if !own.parts.closures.is_empty() {
+            own.parts.mistakes.push("loops (`constraint`) are none of a tree of links".to_owned());
+        }
         lose_loads(&mut own);
         let text = Document::new(&mut own).written();
         if own.parts.mistakes.is_empty() {

@@ -20,10 +20,16 @@ flags = mujoco.mjtDisableBit
 SOFT = flags.mjDSBL_CONTACT | flags.mjDSBL_LIMIT | flags.mjDSBL_FRICTIONLOSS
 
 
+def couplings(model):
+    """Joints that follow others, with these and their polynomials."""
+    of_joints = model.eq_type == mujoco.mjtEq.mjEQ_JOINT
+    return list(zip(model.eq_obj1id[of_joints], model.eq_obj2id[of_joints], model.eq_data[of_joints]))
+
+
 def followers(model):
     """Rates of all joints by those that follow none."""
     rates = np.eye(model.nv)
-    for one, other, data in zip(model.eq_obj1id, model.eq_obj2id, model.eq_data):
+    for one, other, data in couplings(model):
         rates[model.jnt_dofadr[one]] = data[1] * rates[model.jnt_dofadr[other]]
     return rates
 
@@ -38,7 +44,6 @@ for scene in json.load(open(sys.argv[1])):
     model.eq_solimp[:, :2] = IMPEDANCE
     data, largest, gaps, soft = mujoco.MjData(model), 0.0, 0, 0.0
     by_free = followers(model)
-    free = np.flatnonzero(by_free.any(axis=0))
     for state in scene["states"]:
         expected = np.zeros(model.nv)
         for name, place, rates, accelerations in state["joints"]:
@@ -49,7 +54,7 @@ for scene in json.load(open(sys.argv[1])):
             expected[v : v + len(rates)] = accelerations
         for name, value in zip(scene["inputs"], state["u"]):
             data.ctrl[model.actuator(name).id] = value
-        for one, other, polynomial in zip(model.eq_obj1id, model.eq_obj2id, model.eq_data):
+        for one, other, polynomial in couplings(model):
             data.qpos[model.jnt_qposadr[one]] = polynomial[1] * data.qpos[model.jnt_qposadr[other]]
         data.qvel, expected = by_free @ data.qvel, by_free @ expected
         # What is soft in MuJoCo is left out.
@@ -60,15 +65,22 @@ for scene in json.load(open(sys.argv[1])):
         energy = data.qvel @ mass @ data.qvel / 2
         size, found = 1 + np.abs(expected).max(), data.qacc.copy()
         if model.neq > 0:
-            # Joints that follow others, held exactly, and by MuJoCo's equalities.
-            own = by_free[:, free]
-            forces = data.qfrc_passive + data.qfrc_actuator - data.qfrc_bias
-            held = own @ np.linalg.solve(own.T @ mass @ own, own.T @ forces)
             model.opt.disableflags = SOFT
             mujoco.mj_forward(model, data)
-            apart = np.abs(data.efc_pos).max() / (1 + np.abs(data.qpos).max())
-            soft = max(soft, np.abs(data.qacc - expected).max() / (size + np.abs(found - expected).max()))
-            largest, found = max(largest, apart), held
+            # Equalities that are held exactly, by multipliers, and by MuJoCo, which leaves out the derivative of J: of
+            # loops that move J q̈ is taken as it is.
+            rows = data.efc_J.reshape(-1, model.nv)
+            away = rows @ expected
+            zero = [data.efc_pos, rows @ data.qvel]
+            if len(couplings(model)) == model.neq or not data.qvel.any():
+                zero.append(away)
+                soft = max(soft, np.abs(data.qacc - expected).max() / (size + np.abs(found - expected).max()))
+            apart = np.abs(np.concatenate(zero)).max() / (size + np.abs(data.qpos).max() + np.abs(data.qvel).max())
+            exact = np.block([[mass, rows.T], [rows, np.zeros((len(rows), len(rows)))]])
+            free = data.qfrc_passive + data.qfrc_actuator - data.qfrc_bias
+            held = np.linalg.lstsq(exact, np.concatenate([free, away]), rcond=1e-12)[0][: model.nv]
+            largest = max(largest, apart)
+            found = held
         found = np.abs(found - expected).max() / size
         largest = max(largest, found, abs(energy - state["energy"]) / (1 + energy))
         for name, gap in state["gaps"]:

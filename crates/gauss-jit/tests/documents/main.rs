@@ -5,6 +5,7 @@ mod again;
 mod common;
 mod contacts;
 mod every;
+mod loops;
 mod mujoco;
 mod pinocchio;
 mod python;

@@ -8,6 +8,9 @@ use gauss_runtime::nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::common::{Random, robot};
 
+/// Configuration and speeds of a scene with loops.
+type ClosedState = fn(&mut Random) -> [Vec<f64>; 2];
+
 /// A scene with its parameters.
 #[derive(Clone)]
 pub struct Example {
@@ -16,6 +19,8 @@ pub struct Example {
     pub parameters: Vec<(&'static str, Vec<f64>)>,
     /// The linear speeds of a pose are rates of its position, not seen from the body.
     pub hybrid: bool,
+    /// A state in which loops are closed, in place of any one.
+    pub closed: Option<ClosedState>,
     /// Inputs are 0.
     pub idle: bool,
     pub kernel: OnceLock<Kernel>,
@@ -47,7 +52,7 @@ fn scene(name: &'static str, clauses: &str, fields: &str, parameters: &[(&'stati
     let parameters = parameters.iter().map(|(name, own)| (*name, own.to_vec())).collect();
     let source = format!("#[gauss({clauses})] struct Scene {{ {fields} }}");
     let (kernel, mjcf, urdf) = Default::default();
-    Example { name, source, parameters, hybrid: false, idle: false, kernel, mjcf, urdf }
+    Example { name, source, parameters, hybrid: false, closed: None, idle: false, kernel, mjcf, urdf }
 }
 
 /// A robot's file without what is soft in MuJoCo.
@@ -201,6 +206,30 @@ fn written() -> Vec<Example> {
             "",
             &[],
         ),
+        Example {
+            closed: Some(parallelogram),
+            ..scene(
+                "parallelogram",
+                "coordinates(a, b, c), gravity = 9.81, spring(along = a, stiffness = 3),
+                 body(crank, rotation = rotation_y(a), mass = 1, inertia = 0.1),
+                 body(coupler, parent = crank, position = [0.3, 0, 0], rotation = rotation_y(b), mass = 2, inertia = 0.2),
+                 body(rocker, position = [0.5, 0, 0], rotation = rotation_y(c), mass = 0.7, inertia = 0.1),
+                 point(end, body = coupler, at = [0.5, 0, 0]), point(pin, body = rocker, at = [0.3, 0, 0]),
+                 constraint(position = end - pin)",
+                "",
+                &[],
+            )
+        },
+        Example {
+            closed: Some(tethered),
+            ..scene(
+                "tethered body",
+                "coordinates(craft: Pose), body(hull, pose = craft, mass = 2, center_of_mass = [0, 0, -0.1], inertia = 0.3),
+                 gravity = 9.81, point(hook, body = hull, at = [0.1, 0.2, 0.3]), constraint(position = hook - [0, 0, 1])",
+                "",
+                &[],
+            )
+        },
         scene(
             "branches",
             "coordinates(x, a, b), gravity = 9.81, frame(turned, rotation = rotation_z(a)),
@@ -211,6 +240,27 @@ fn written() -> Vec<Example> {
             &[],
         ),
     ]
+}
+
+/// Every other state is at rest.
+fn rate(random: &mut Random) -> f64 {
+    let rate = random.list(1)[0];
+    if random.list(1)[0] > 0.0 { 0.0 } else { rate }
+}
+
+/// The coupler stays level, far from where all bars are on one line.
+fn parallelogram(random: &mut Random) -> [Vec<f64>; 2] {
+    let (a, rate) = (1.3 + 0.5 * random.list(1)[0], rate(random));
+    [vec![a, -a, a], vec![rate, -rate, rate]]
+}
+
+/// The hook is at (0, 0, 1).
+fn tethered(random: &mut Random) -> [Vec<f64>; 2] {
+    let hook = Vector3::new(0.1, 0.2, 0.3);
+    let turn = UnitQuaternion::from_scaled_axis(Vector3::from_column_slice(&random.list(3)));
+    let omega = Vector3::from_column_slice(&random.list(3)) * rate(random);
+    let place = Vector3::z() - turn * hook;
+    [[turn.coords.as_slice(), place.as_slice()].concat(), [(-omega.cross(&hook)).as_slice(), omega.as_slice()].concat()]
 }
 
 impl Example {
@@ -228,7 +278,7 @@ impl Example {
         let made = || match Urdf::new(&self.source, &self.numbers()) {
             Ok(made) => Some(made),
             Err(DocumentError::NoCounterpart { list, .. })
-                if list.iter().all(|line| line.contains("no ball joints")) =>
+                if list.iter().all(|line| line.contains("no ball joints") || line.contains("loops (`constraint`)")) =>
             {
                 None
             }
@@ -253,7 +303,10 @@ impl Example {
             q[unit.clone()].iter_mut().for_each(|x| *x /= length);
         }
         let count = model.description().speeds.iter().map(|own| own.numbers.len()).sum();
-        let z = random.list(count);
+        let mut z = random.list(count);
+        if let Some(closed) = self.closed {
+            [q, z] = closed(random);
+        }
         let mut u = random.list(model.description().inputs.iter().map(|own| own.numbers.len()).sum());
         if self.idle {
             u.fill(0.0);
