@@ -7,13 +7,14 @@ use pyo3::prelude::*;
 use crate::errors;
 use crate::waiting::interruptible;
 
-type Made = Result<String, DocumentError>;
+/// The text of a document.
+type DocumentText = Result<String, DocumentError>;
 
 /// A document of the struct in a text.
 fn document(
     py: Python<'_>,
     (source, parameters): (String, Vec<(String, Vec<f64>)>),
-    of: impl Fn(&str, &[(&str, &[f64])]) -> Made + Send + 'static,
+    of: impl Fn(&str, &[(&str, &[f64])]) -> DocumentText + Send + 'static,
 ) -> PyResult<String> {
     let made = interruptible(py, move || {
         let parameters: Vec<(&str, &[f64])> = parameters.iter().map(|(name, own)| (&name[..], &own[..])).collect();

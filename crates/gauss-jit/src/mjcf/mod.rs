@@ -7,7 +7,7 @@ mod write;
 
 use crate::joints::{DocumentError, JointScene};
 
-use write::{Document, POINT};
+use write::{MjcfDocument, POINT};
 
 /// A scene with numbers for its parameters as an MJCF document.
 ///
@@ -37,7 +37,7 @@ impl Mjcf {
             own.parts.mistakes.push("the time `t` enters the equations, of which MJCF has no functions".to_owned());
         }
         lose_softness(&mut own);
-        let text = Document::new(&mut own).written();
+        let text = MjcfDocument::new(&mut own).written();
         if own.parts.mistakes.is_empty() {
             Ok(Self { text, lost: own.parts.lost })
         } else {

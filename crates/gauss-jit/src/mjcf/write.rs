@@ -19,13 +19,13 @@ const FAR: f64 = 1e9;
 pub const POINT: f64 = 1e-6;
 
 /// A document that is written.
-pub struct Document<'a> {
+pub struct MjcfDocument<'a> {
     own: &'a mut JointScene,
     /// Rounding of places.
     error: f64,
 }
 
-impl<'a> Document<'a> {
+impl<'a> MjcfDocument<'a> {
     pub fn new(own: &'a mut JointScene) -> Self {
         let error = own.error_of_places();
         Self { own, error }

@@ -4,7 +4,7 @@ mod write;
 
 use crate::joints::{DocumentError, JointScene};
 
-use write::Document;
+use write::UrdfDocument;
 
 /// A scene with numbers for its parameters as a URDF document.
 ///
@@ -23,8 +23,8 @@ impl Urdf {
     /// units, matrices row after row.
     ///
     /// # Errors
-    /// Mistakes of the scene and of its parameters; motions and masses without a counterpart: poses that are no products
-    /// of joints, ball joints, constraints, fluids, modes, states of elements, tables.
+    /// Mistakes of the scene and of its parameters; motions and masses without a counterpart: poses that are no
+    /// products of joints, ball joints, constraints, fluids, modes, states of elements, tables.
     pub fn new(source: &str, parameters: &[(&str, &[f64])]) -> Result<Self, DocumentError> {
         const FORMAT: &str = "URDF";
         let mut own = JointScene::new(source, parameters, FORMAT)?;
@@ -32,7 +32,7 @@ impl Urdf {
             own.parts.mistakes.push("loops (`constraint`) are none of a tree of links".to_owned());
         }
         lose_loads(&mut own);
-        let text = Document::new(&mut own).written();
+        let text = UrdfDocument::new(&mut own).written();
         if own.parts.mistakes.is_empty() {
             Ok(Self { text, lost: own.parts.lost })
         } else {

@@ -10,11 +10,11 @@ use crate::joints::motions::Motion;
 use crate::joints::parts::JointAttributes;
 use crate::joints::tag::{OF_TURNS, Tag, comment};
 
-/// What stands where a limit is wanted and the scene has none: a zero would be one to some programs.
+/// A limit in the place of one that URDF wants and the scene has not: a zero would be one to some programs.
 const FAR: f64 = 1e9;
 
 /// A document that is written.
-pub struct Document<'a> {
+pub struct UrdfDocument<'a> {
     own: &'a mut JointScene,
     /// Rounding of places.
     error: f64,
@@ -29,7 +29,7 @@ struct Parent<'a> {
     axes: Isometry3<f64>,
 }
 
-impl<'a> Document<'a> {
+impl<'a> UrdfDocument<'a> {
     pub fn new(own: &'a mut JointScene) -> Self {
         let error = own.error_of_places();
         Self { own, error, names: Vec::new(), out: String::new() }
