@@ -1,4 +1,4 @@
-//! Ranges of joints, dry friction of joints, and points and spheres above planes that stand still.
+//! Ranges of joints, dry friction of joints, and points and spheres that meet each other or planes that stand still.
 
 use gauss_codegen::LinkKind;
 use gauss_codegen::description::ContactDescription;
@@ -7,7 +7,7 @@ use gauss_runtime::nalgebra::{DMatrix, DVector, Vector3};
 use super::masses::STATES;
 use super::motions::ROUNDING;
 use super::numbers::{SceneNumbers, Sequence, Value, are_small, shortest};
-use super::parts::{Parts, SphereOnPlane};
+use super::parts::{BodySphere, Obstacle, Parts, SphereContact};
 use super::tree::JointTree;
 
 /// A state with all numbers of contacts.
@@ -56,7 +56,7 @@ impl<'a> Contacts<'a> {
             if !found && !own.rolls_on.is_some_and(is_known) {
                 self.parts.acting.push(format!(
                     "the contact `{}` is neither a range or dry friction of one joint nor that of a point or sphere \
-                     of a body above a plane that stands still",
+                     of a body with another one or with a plane that stands still",
                     own.name
                 ));
             }
@@ -115,58 +115,80 @@ impl<'a> Contacts<'a> {
         fits
     }
 
-    /// A sphere, or a point, whose contact is at `c − r n` of a plane that stands still.
+    /// A sphere, or a point, that meets a plane which stands still, or another one.
     fn sphere(&mut self, k: usize, (row, vector): (usize, usize), own: &ContactDescription) -> bool {
-        let Some(first) = self.states.first() else { return false };
-        let known = |name: &String| self.scene.bodies.list.iter().position(|body| body.name == *name);
-        let (Some(body), None) = (own.bodies[0].as_ref().and_then(known), &own.bodies[1]) else { return false };
-        if !own.has_gap || own.axes == 0 || self.scene.bodies.list[body].kind == LinkKind::Particle {
+        let known = |name: &Option<String>| {
+            let body = self.scene.bodies.list.iter().position(|body| Some(&body.name) == name.as_ref())?;
+            (self.scene.bodies.list[body].kind != LinkKind::Particle).then_some(body)
+        };
+        let Some(body) = known(&own.bodies[0]).filter(|_| own.has_gap && own.axes > 0) else { return false };
+        let at = |state: &ContactState, k: usize| Vector3::from_column_slice(&state.frames[3 * (vector + k)..][..3]);
+        let place = |state: &ContactState| (at(state, 0), at(state, 1), state.gaps[k]);
+        // The contact is at c − r n, and at c + r n + g n of another sphere.
+        let sphere = self.sphere_of(body, |state| (at(state, 0), -at(state, 1)));
+        let other = match &own.bodies[1] {
+            None => self.plane(place),
+            name => known(name)
+                .and_then(|body| {
+                    self.sphere_of(body, |state| (at(state, 0) - at(state, 1) * state.gaps[k], at(state, 1)))
+                })
+                .map(Obstacle::Sphere),
+        };
+        let (Some(sphere), Some(other)) = (sphere, other) else { return false };
+        let all = self.states.iter().flat_map(|state| &state.friction[row + 1..row + 1 + own.tangents]);
+        let (low, high) = all.fold((f64::INFINITY, 0.0_f64), |(low, high), x| (low.min(*x), high.max(*x)));
+        if own.tangents > 0 && high - low > ROUNDING * high {
             return false;
         }
-        let at = |state: &ContactState, k: usize| {
-            Vector3::from_column_slice(&state.frames[3 * (vector + k)..3 * (vector + k) + 3])
+        let turns = own.drills || self.list.iter().any(|other| other.rolls_on == Some(k));
+        self.parts.contacts.push(SphereContact { name: own.name.clone(), sphere, other, friction: high, turns });
+        true
+    }
+
+    /// States in which contacts have places: spheres with one centre have none.
+    fn placed(&self) -> Vec<&ContactState> {
+        let is_known = |state: &&ContactState| state.frames.iter().chain(&state.gaps).all(|x| x.is_finite());
+        self.states.iter().filter(is_known).collect()
+    }
+
+    /// A plane that stands still, from points of contact, normals and gaps.
+    fn plane(&self, place: impl Fn(&ContactState) -> (Vector3<f64>, Vector3<f64>, f64)) -> Option<Obstacle> {
+        let states = self.placed();
+        let (point, normal, gap) = place(states.first()?);
+        let height = normal.dot(&point) - gap;
+        let size = states.iter().map(|state| 1.0 + place(state).0.norm()).fold(0.0, f64::max);
+        let fits = |state: &&ContactState| {
+            let (point, own, gap) = place(state);
+            are_small(&[(own - normal).norm(), own.dot(&point) - gap - height], ROUNDING * (1.0 + point.norm()))
         };
-        let (normal, height) = (at(first, 1), at(first, 1).dot(&at(first, 0)) - first.gaps[k]);
-        let (mut rows, mut given) = (DMatrix::zeros(3 * self.states.len(), 4), DVector::zeros(3 * self.states.len()));
-        for (place, state) in self.states.iter().enumerate() {
-            let (point, own) = (at(state, 0), at(state, 1));
-            let moved = [(own - normal).norm(), own.dot(&point) - state.gaps[k] - height];
-            if !are_small(&moved, ROUNDING * (1.0 + point.norm())) {
-                return false;
-            }
-            // In the axes of the body: c − r n is the point.
+        let height = shortest(height, 1e-14 * size);
+        states.iter().all(fits).then_some(Obstacle::Plane { normal: normal.into(), height })
+    }
+
+    /// The sphere of a body with points of its surface in given directions.
+    fn sphere_of(
+        &self,
+        body: usize,
+        surface: impl Fn(&ContactState) -> (Vector3<f64>, Vector3<f64>),
+    ) -> Option<BodySphere> {
+        let states = self.placed();
+        let (mut rows, mut given) = (DMatrix::zeros(3 * states.len(), 4), DVector::zeros(3 * states.len()));
+        for (place, state) in states.iter().enumerate() {
+            let (point, direction) = surface(state);
             let pose = self.tree.place(body, &state.values);
             let seen = pose.rotation.inverse() * (point - pose.translation.vector);
             rows.view_mut((3 * place, 0), (3, 3)).fill_with_identity();
-            rows.view_mut((3 * place, 3), (3, 1)).copy_from(&-(pose.rotation.inverse() * normal));
+            rows.view_mut((3 * place, 3), (3, 1)).copy_from(&(pose.rotation.inverse() * direction));
             given.rows_mut(3 * place, 3).copy_from(&seen);
         }
-        let Ok(found) = rows.clone().svd(true, true).solve(&given, ROUNDING) else { return false };
-        let friction = |first: usize, count: usize| {
-            let all = self.states.iter().flat_map(|state| &state.friction[first..first + count]);
-            let (low, high) = all.fold((f64::INFINITY, 0.0_f64), |(low, high), x| (low.min(*x), high.max(*x)));
-            if count == 0 { Some(0.0) } else { (high - low <= ROUNDING * high).then_some(high) }
-        };
+        // Four numbers want more than two states.
+        let found = rows.clone().svd(true, true).solve(&given, ROUNDING).ok().filter(|_| states.len() > 2)?;
         if !are_small((&rows * &found - &given).iter(), 100.0 * ROUNDING * (1.0 + given.amax())) {
-            return false;
+            return None;
         }
-        let Some(slips) = friction(row + 1, own.tangents) else { return false };
         let error = 1e-14 * (1.0 + given.amax());
-        let number = |x: f64| shortest(x, error);
-        let center = [found[0], found[1], found[2]].map(number);
-        let (normal, height) = ([normal.x, normal.y, normal.z], number(height));
-        let contact = SphereOnPlane {
-            name: own.name.clone(),
-            body,
-            center,
-            radius: Some(number(found[3])).filter(|r| *r > error),
-            normal,
-            height,
-            friction: slips,
-            turns: own.drills || self.list.iter().any(|other| other.rolls_on == Some(k)),
-        };
-        self.parts.contacts.push(contact);
-        true
+        let center = [found[0], found[1], found[2]].map(|x| shortest(x, error));
+        Some(BodySphere { body, center, radius: Some(shortest(found[3], error)).filter(|r| *r > error) })
     }
 }
 

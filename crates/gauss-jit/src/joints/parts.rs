@@ -47,20 +47,47 @@ pub struct Motor {
     pub on: Transmission,
 }
 
-/// A sphere of a body that meets a plane which stands still.
+/// A sphere of a body.
 #[derive(Clone, Debug)]
-pub struct SphereOnPlane {
-    pub name: String,
+pub struct BodySphere {
     pub body: usize,
     /// Its centre from O, in the axes of the body.
     pub center: [f64; 3],
     /// None of a point.
     pub radius: Option<f64>,
-    pub normal: [f64; 3],
-    pub height: f64,
+}
+
+/// The shape that a sphere meets.
+#[derive(Clone, Debug)]
+pub enum Obstacle {
+    /// A plane that stands still.
+    Plane {
+        normal: [f64; 3],
+        height: f64,
+    },
+    Sphere(BodySphere),
+}
+
+/// A contact of a sphere.
+#[derive(Clone, Debug)]
+pub struct SphereContact {
+    pub name: String,
+    pub sphere: BodySphere,
+    pub other: Obstacle,
     pub friction: f64,
     /// Friction of drilling or rolling.
     pub turns: bool,
+}
+
+impl SphereContact {
+    /// Its spheres with their names.
+    pub fn spheres(&self) -> impl Iterator<Item = (String, &BodySphere)> {
+        let other = match &self.other {
+            Obstacle::Plane { .. } => None,
+            Obstacle::Sphere(sphere) => Some((format!("{}_other", self.name), sphere)),
+        };
+        std::iter::once((self.name.clone(), &self.sphere)).chain(other)
+    }
 }
 
 /// A point that two bodies share, or one body and what stands still.
@@ -78,7 +105,7 @@ pub struct Parts {
     pub joints: Vec<JointAttributes>,
     pub tendons: Vec<Tendon>,
     pub motors: Vec<Motor>,
-    pub contacts: Vec<SphereOnPlane>,
+    pub contacts: Vec<SphereContact>,
     pub closures: Vec<Closure>,
     /// Elements of the loads that do more than damp single joints and take inputs.
     pub loads: Vec<String>,

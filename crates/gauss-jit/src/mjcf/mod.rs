@@ -5,6 +5,7 @@
 mod masses;
 mod write;
 
+use crate::joints::parts::SphereContact;
 use crate::joints::{DocumentError, JointScene};
 
 use write::{MjcfDocument, POINT};
@@ -27,7 +28,7 @@ impl Mjcf {
     /// # Errors
     /// Mistakes of the scene and of its parameters; all that has no counterpart: poses that are no products of joints,
     /// constraints, fluids, modes, states of elements, loads that are not linear, tables, contacts other than those of
-    /// spheres with planes.
+    /// spheres with planes and with each other.
     pub fn new(source: &str, parameters: &[(&str, &[f64])]) -> Result<Self, DocumentError> {
         const FORMAT: &str = "MJCF";
         let mut own = JointScene::new(source, parameters, FORMAT)?;
@@ -64,7 +65,8 @@ fn lose_softness(own: &mut JointScene) {
     for own in parts.contacts.iter().filter(|own| own.turns) {
         lost.push(format!("friction of drilling and rolling of `{}` is lost", own.name));
     }
-    let points = parts.contacts.iter().filter(|own| own.radius.is_none()).map(|own| format!("`{}`", own.name));
+    let spheres = parts.contacts.iter().flat_map(SphereContact::spheres);
+    let points = spheres.filter(|(_, own)| own.radius.is_none()).map(|(name, _)| format!("`{name}`"));
     let points = points.collect::<Vec<_>>().join(", ");
     if !points.is_empty() {
         lost.push(format!("points touch as spheres of {POINT:e} m, since MuJoCo has none without size: {points}"));

@@ -6,7 +6,7 @@ use gauss_runtime::nalgebra::{Isometry3, Matrix3, Quaternion, Vector3};
 use crate::joints::JointScene;
 use crate::joints::motions::{Joint, Motion, ROUNDING};
 use crate::joints::numbers::MassData;
-use crate::joints::parts::{Motor, SphereOnPlane, Transmission};
+use crate::joints::parts::{Motor, Obstacle, SphereContact, Transmission};
 use crate::joints::tag::{OF_TURNS, Tag, comment, section};
 use crate::joints::tree::JointTree;
 
@@ -195,7 +195,7 @@ impl<'a> MjcfDocument<'a> {
     fn has_marks(&self, body: usize) -> bool {
         self.has_motors(body)
             || self.own.parts.closures.iter().any(|own| own.bodies.contains(&Some(body)))
-            || self.own.parts.contacts.iter().any(|own| own.body == body)
+            || self.own.parts.contacts.iter().flat_map(SphereContact::spheres).any(|(_, own)| own.body == body)
     }
 
     fn has_motors(&self, body: usize) -> bool {
@@ -211,9 +211,10 @@ impl<'a> MjcfDocument<'a> {
             *out += &placed(tag, &seen, self.error).close();
         }
         *out += &self.ends_of_loops(Some(body), &seen, depth);
-        for own in self.own.parts.contacts.iter().filter(|own| own.body == body) {
+        let spheres = self.own.parts.contacts.iter().flat_map(SphereContact::spheres);
+        for (name, own) in spheres.filter(|(_, own)| own.body == body) {
             let at = seen.rotation * Vector3::from(own.center) + seen.translation.vector;
-            let tag = Tag::new(depth, "geom").word("name", &own.name).word("type", "sphere");
+            let tag = Tag::new(depth, "geom").word("name", name).word("type", "sphere");
             *out += &tag.numbers("pos", at.iter(), self.error).number("size", own.radius.unwrap_or(POINT)).close();
         }
     }
@@ -327,30 +328,38 @@ impl<'a> MjcfDocument<'a> {
 
     /// Planes, each once.
     fn planes(&self) -> String {
-        let first = self.own.parts.contacts.iter().enumerate().filter(|(k, _)| self.plane(*k) == *k);
-        let plane = |own: &SphereOnPlane| {
-            let at = Vector3::from(own.normal) * own.height;
-            let tag = Tag::new(2, "geom").word("name", format!("{}_plane", own.name)).word("type", "plane");
-            let tag = tag.word("size", "0 0 1").numbers("pos", at.iter(), self.error);
-            tag.numbers("zaxis", &own.normal, OF_TURNS).close()
+        let plane = |(k, own): (usize, &SphereContact)| match own.other {
+            Obstacle::Plane { normal, height } if self.plane(k, (normal, height)) == k => {
+                let at = Vector3::from(normal) * height;
+                let tag = Tag::new(2, "geom").word("name", format!("{}_plane", own.name)).word("type", "plane");
+                let tag = tag.word("size", "0 0 1").numbers("pos", at.iter(), self.error);
+                Some(tag.numbers("zaxis", &normal, OF_TURNS).close())
+            }
+            _ => None,
         };
-        first.map(|(_, own)| plane(own)).collect()
+        self.own.parts.contacts.iter().enumerate().filter_map(plane).collect()
     }
 
-    /// The first contact with the same plane.
-    fn plane(&self, k: usize) -> usize {
-        let all = &self.own.parts.contacts;
-        let apart = |other: &usize| {
-            let turned = (Vector3::from(all[*other].normal) - Vector3::from(all[k].normal)).norm();
-            turned + (all[*other].height - all[k].height).abs()
+    /// The first contact with the same plane, up to one.
+    fn plane(&self, k: usize, (normal, height): ([f64; 3], f64)) -> usize {
+        let is_same = |other: &usize| match self.own.parts.contacts[*other].other {
+            Obstacle::Plane { normal: own, height: at } => {
+                (Vector3::from(own) - Vector3::from(normal)).norm() + (at - height).abs() <= ROUNDING
+            }
+            Obstacle::Sphere(_) => false,
         };
-        (0..k).find(|other| apart(other) <= ROUNDING).unwrap_or(k)
+        (0..k).find(is_same).unwrap_or(k)
     }
 
     fn pairs(&self) -> String {
-        let pair = |(k, own): (usize, &SphereOnPlane)| {
-            let plane = format!("{}_plane", self.own.parts.contacts[self.plane(k)].name);
-            let tag = Tag::new(2, "pair").word("name", &own.name).word("geom1", plane).word("geom2", &own.name);
+        let pair = |(k, own): (usize, &SphereContact)| {
+            let other = match own.other {
+                Obstacle::Plane { normal, height } => {
+                    format!("{}_plane", self.own.parts.contacts[self.plane(k, (normal, height))].name)
+                }
+                Obstacle::Sphere(_) => format!("{}_other", own.name),
+            };
+            let tag = Tag::new(2, "pair").word("name", &own.name).word("geom1", other).word("geom2", &own.name);
             match own.friction {
                 mu if mu > 0.0 => tag.word("condim", 3).numbers("friction", &[mu, mu], 0.0).close(),
                 _ => tag.word("condim", 1).close(),

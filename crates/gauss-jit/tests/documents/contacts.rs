@@ -29,6 +29,20 @@ fn numbers_of_contacts_are_those_of_the_scene() {
     }
 }
 
+#[test]
+fn spheres_meet_each_other() {
+    let balls = examples().iter().find(|example| example.name == "two balls").expect("a scene").mjcf();
+    for part in [
+        "<geom name=\"balls\" type=\"sphere\" pos=\"0 0 0\" size=\"0.1\"/>",
+        "<geom name=\"balls_other\" type=\"sphere\" pos=\"0 0.1 0.2\" size=\"0.2\"/>",
+        "<geom name=\"stop_other\" type=\"sphere\" pos=\"0.2 0.3 -1.9\" size=\"0.3\"/>",
+        "<pair name=\"balls\" geom1=\"balls_other\" geom2=\"balls\" condim=\"3\" friction=\"0.4 0.4\"/>",
+        "<pair name=\"stop\" geom1=\"stop_other\" geom2=\"stop\" condim=\"1\"/>",
+    ] {
+        assert!(balls.xml().contains(part), "{part}\n{}", balls.xml());
+    }
+}
+
 /// Whatever is lost is a comment of the document.
 #[test]
 fn losses_are_comments_of_the_document() {

@@ -206,6 +206,17 @@ fn written() -> Vec<Example> {
             "",
             &[],
         ),
+        scene(
+            "two balls",
+            "coordinates(a: Pose, b: Pose), gravity = 9.81, frame(post, position = [0.2, 0.3, -2]),
+             body(one, pose = a, mass = 1, inertia = 0.1), body(two, pose = b, mass = 2, inertia = 0.3),
+             point(knob, body = two, at = [0, 0.1, 0.2]), point(top, body = post, at = [0, 0, 0.1]),
+             contact(balls, point = one.position, radius = 0.1, other = knob, other_radius = 0.2, along = [0, 0, 1],
+                     friction = 0.4),
+             contact(stop, point = one.position, radius = 0.1, other = top, other_radius = 0.3)",
+            "",
+            &[],
+        ),
         Example {
             closed: Some(parallelogram),
             ..scene(
