@@ -8,6 +8,7 @@
 mod counts;
 #[path = "../common/latex.rs"]
 mod latex;
+mod names;
 mod scenes;
 mod sources;
 mod table;

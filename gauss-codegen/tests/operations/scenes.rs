@@ -288,7 +288,7 @@ fn chains() -> Vec<Scene> {
 }
 
 /// Structs of benchmarks, examples and tests.
-fn written_out() -> Vec<Scene> {
+pub fn written_out() -> Vec<Scene> {
     let places = [
         "benches/src/scenes.rs",
         "examples",
