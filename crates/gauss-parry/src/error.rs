@@ -73,10 +73,18 @@ impl fmt::Display for ParryErrorKind {
             Self::Unsupported => f.write_str("the library finds no contacts of shapes of these kinds"),
             Self::Unknown => f.write_str("the shape is none of these; it comes from `add`"),
             Self::PairPoints { points, most } => {
-                write!(f, "they touch at {points} points and may at {most}; allow more by `most`, or use `reduce`")
+                write!(
+                    f,
+                    "they touch at {points} points and may at {most}; allow more by `most`, or find fewer by a shorter \
+                     `reach` or by `reduce`"
+                )
             }
             Self::Points { points, slots } => {
-                write!(f, "all shapes touch at {points} points, and there are {slots} slots; give it more, or `reduce`")
+                write!(
+                    f,
+                    "all shapes touch at {points} points, and there are {slots} slots; make more of them, or find fewer \
+                     points by a shorter `reach` or by `reduce`"
+                )
             }
             Self::TooDeep { gap, deepest } => write!(
                 f,

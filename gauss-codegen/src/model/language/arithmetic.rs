@@ -438,6 +438,13 @@ fn convert_method(call: &ExprMethodCall, context: &mut Context) -> Option<Expres
         context.error(call.method.span(), format!("`{word}` is no function; write `.{word}` without brackets"));
         return None;
     }
+    if ["float64", "float32", "int64", "int32"].contains(&word.as_str()) {
+        let told = format!(
+            "NumPy prints its numbers as `np.{word}(…)`; write those of Python: `{{float(x)}}`, `{{x.tolist()}}`"
+        );
+        context.error(call.method.span(), told);
+        return None;
+    }
     apply(&call.method, Some(&call.receiver), &call.args, context)
 }
 

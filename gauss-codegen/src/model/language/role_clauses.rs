@@ -6,7 +6,9 @@ use super::attributes::{self, Clause};
 use super::context::Context;
 use super::role_words::ROLES;
 use super::{arguments, arithmetic};
+use crate::algebra::Rational;
 use crate::model::scene::clauses::{RoleClause, RoleValue};
+use crate::model::scene::expression::{Expression, ExpressionKind};
 use crate::terms::{Role, Shape};
 
 /// The role that a word of a clause means.
@@ -33,7 +35,11 @@ pub fn read(role: Role, clause: &Clause, list: &mut Vec<RoleClause>, context: &m
         }
         _ => arithmetic::read(word, tokens, context).map(RoleValue::Expression),
     };
-    if let Some(value) = value {
+    // A body whose mass data were misread has them: that is told once.
+    let one = ExpressionKind::Number { value: Rational::one(), twin: None };
+    let misread = matches!(role, Role::Mass | Role::Inertia | Role::CentralInertia);
+    let stand_in = || RoleValue::Expression(Expression { kind: one, span: clause.name.span() });
+    if let Some(value) = value.or_else(|| misread.then(stand_in)) {
         add(RoleClause { role, shape: Shape::Other, value, span: clause.name.span() }, list, context);
     }
 }

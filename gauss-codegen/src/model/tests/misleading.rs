@@ -121,3 +121,15 @@ fn slips_of_points_and_structs_without_fields() {
     let scene = "#[gauss(coordinates(a), body(arm, rotation = rotation_z(a), mass = 1, inertia = 1))] struct Scene;";
     only(scene, unit);
 }
+
+#[test]
+fn inertias_that_are_misread_are_not_missing_too() {
+    let scene = |inertia: &str| {
+        format!(
+            "#[gauss(coordinates(a), body(arm, rotation = rotation_z(a), mass = 1, inertia = {inertia}))] struct Scene {{}}"
+        )
+    };
+    only(&scene("[.4, 0.4, 0.4]"), "a number begins with a digit; write `0.4` in place of `.4`");
+    let told = "NumPy prints its numbers as `np.float64(…)`; write those of Python: `{float(x)}`, `{x.tolist()}`";
+    only(&scene("np.float64(0.1)"), told);
+}
