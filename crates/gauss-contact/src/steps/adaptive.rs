@@ -66,8 +66,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
     /// by what it does in such a time.
     ///
     /// An input is held during half of a step, as it is at the start of that; where it changes with time or state, that
-    /// is of first order, and steps are as short as it asks for. It is looked at eight times in a step: a push that is
-    /// shorter than an eighth of the longest step may be missed.
+    /// is of first order, and steps are as short as it asks for. It is looked at eight times in a step, as forces of the
+    /// scene that depend on the time are: a push that is shorter than an eighth of the longest step may be missed.
     pub fn adaptive(self, relative: f64, absolute: f64) -> AdaptiveContactSteps<'k, K, I, E> {
         let (shortest, limit) = (SHORTEST * self.h, self.limit.unwrap_or(MOST_STEPS));
         AdaptiveContactSteps { steps: self, relative, absolute, shortest, limit }
@@ -216,23 +216,34 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> AdaptiveContactSteps<'k, K, I, E>
         Ok(Trial { estimate, changes, report })
     }
 
-    /// The change of the speeds by the input in half of a step, from its start on, beside that which is held: without
-    /// contacts, and without regard to its sign.
+    /// The change of the speeds by what changes with time in half of a step, from its start on, beside that which the
+    /// step takes: by the input beside that which is held, without regard to its sign, and by the scene's own forces
+    /// beside those in the middle. Without contacts.
     fn unheld(&self, stepper: &ContactStepper<'k, K>, h: f64) -> K::Speeds
     where
         I: InputSource<K>,
     {
+        let (t, q, z, kernel) = (stepper.t, &stepper.q, &stepper.z, stepper.kernel);
+        let (looks, part) = (LOOKS.map(|part| t + 0.5 * h * part), 0.5 * h / LOOKS.len() as f64);
+        let input = |at: f64| self.steps.input.input(at, q, z);
+        let held = input(t);
+        let add = |sum: K::Speeds, off: &K::Speeds| {
+            let mut sum = sum;
+            (0..K::Speeds::DIM).for_each(|i| sum.set_component(i, sum.component(i) + part * off.component(i).abs()));
+            sum
+        };
         let mut sum = K::Speeds::zero();
-        if size_of::<K::Input>() == 0 {
-            return sum;
+        if size_of::<K::Input>() > 0 {
+            let at_start = kernel.acceleration(t, q, z, &held).scale(-1.0);
+            sum = looks
+                .iter()
+                .fold(sum, |sum, at| add(sum, &at_start.add_scaled(1.0, &kernel.acceleration(t, q, z, &input(*at)))));
         }
-        let (t, q, z) = (stepper.t, &stepper.q, &stepper.z);
-        let acceleration = |at: f64| stepper.kernel.acceleration(t, q, z, &self.steps.input.input(at, q, z));
-        let held = acceleration(t);
-        for part in LOOKS {
-            let other = acceleration(t + 0.5 * h * part).add_scaled(-1.0, &held);
-            let part = 0.5 * h / LOOKS.len() as f64;
-            (0..K::Speeds::DIM).for_each(|i| sum.set_component(i, sum.component(i) + part * other.component(i).abs()));
+        if !kernel.keeps_energy() {
+            // By the trapezoidal rule, which is of the order of a step.
+            let [a, b, c, d] = looks.map(|at| kernel.acceleration(at, q, z, &held));
+            let ends = kernel.acceleration(t, q, z, &held).add_scaled(1.0, &d).scale(0.5);
+            sum = add(sum, &ends.add_scaled(1.0, &a).add_scaled(-3.0, &b).add_scaled(1.0, &c));
         }
         sum
     }

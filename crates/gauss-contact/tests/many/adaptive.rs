@@ -181,3 +181,32 @@ fn a_push_that_swells_and_fades_moves_a_block_as_far_as_in_runs() {
         assert!((x - other).abs() < 0.01 * other, "{w} {x} {other}");
     }
 }
+
+/// The same block under a push that stands in the scene.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(x, height),
+    particle(mass = 2, position = [x, 0, height]),
+    contact(floor, gap = height, slip = rate(x), friction = 0.4),
+    drive(x = p * exp(-(t - t0) * (t - t0) / (w * w))),
+)]
+struct PushedBlock {
+    #[gauss(gravity)]
+    g: f64,
+    p: f64,
+    t0: f64,
+    w: f64,
+}
+
+#[test]
+fn a_push_of_the_scene_moves_a_block_as_far_as_an_input_does() {
+    let p = 3.0 * 0.4 * 2.0 * G;
+    for (w, t0) in [0.02, 0.05].into_iter().flat_map(|w| (0..6).map(move |n| (w, 0.6 + 0.083 * f64::from(n)))) {
+        let kernel = PushedBlock { g: G, p, t0, w }.kernel().unwrap();
+        let run = ContactSteps::new(&kernel, 0.1).adaptive(1e-6, 1e-6);
+        let run = run.run(SVector::zeros(), SVector::zeros(), 0.0..1.8).unwrap();
+        let fine = ContactSteps::new(&kernel, 1e-4).run(SVector::zeros(), SVector::zeros(), 0.0..1.8).unwrap();
+        let [x, other] = [run.samples.last().unwrap().state.q[0], fine.last().unwrap().state.q[0]];
+        assert!((x - other).abs() < 0.01 * other, "{w} {t0} {x} {other}");
+    }
+}
