@@ -15,6 +15,7 @@ use gauss_runtime::system::GaussSystem;
 
 use crate::dense::value;
 use crate::mode::{InMode, Loads};
+use crate::moving::MovingGaps;
 use crate::trajectory::InputOf;
 
 /// A system in its modes, under an input; in velocity form. It owns both, since trajectories do.
@@ -28,7 +29,7 @@ pub(crate) struct InModeProblem<'k, K: ContactSystem> {
     /// The largest entry of D of each normal so far.
     light: Rc<RefCell<Vec<f64>>>,
     /// The largest rate at which each gap changes with the time alone.
-    moving: Rc<[f64]>,
+    pub(crate) moving: MovingGaps,
 }
 
 /// Bounds of the rate of each gap, and of how fast that can change.
@@ -60,14 +61,14 @@ impl<K: ContactSystem> Clone for InModeProblem<'_, K> {
     fn clone(&self) -> Self {
         let Self { system, input, last, fast, light, moving } = self;
         let (last, fast, light) = (Rc::clone(last), Rc::clone(fast), Rc::clone(light));
-        let (system, input, moving) = (system.clone(), Rc::clone(input), Rc::clone(moving));
+        let (system, input, moving) = (system.clone(), Rc::clone(input), moving.clone());
         Self { system, input, last, fast, light, moving }
     }
 }
 
 impl<'k, K: ContactSystem> InModeProblem<'k, K> {
-    /// The problem of a system in its modes under an input. `moving`: the rates of gaps that come from the time alone.
-    pub(crate) fn new(system: InMode<'k, K>, input: InputOf<'k, K>, moving: Rc<[f64]>) -> Self {
+    /// The problem of a system in its modes under an input.
+    pub(crate) fn new(system: InMode<'k, K>, input: InputOf<'k, K>, moving: MovingGaps) -> Self {
         let (last, light) =
             (Rc::new(RefCell::new(None)), Rc::new(RefCell::new(vec![0.0; system.kernel.contacts().len()])));
         Self { system, input, last, fast: Rc::new(RefCell::new([None, None])), light, moving }
@@ -117,7 +118,7 @@ impl<'k, K: ContactSystem> InModeProblem<'k, K> {
             light[i] = light[i].max(value(response.delassus[(row, row)]));
             let fastest = |twice: &Twice<K>| Real::sqrt(light[i] * twice.of(&column, &momentum).max(0.0));
             let grows = value(loads.row_acceleration(row)).abs();
-            let moving = value(moving.component(row)).abs().max(self.moving[i]);
+            let moving = value(moving.component(row)).abs().max(self.moving.rates[i]);
             [fastest(&energy) + moving, fastest(&power) + grows]
         };
         self.system.kernel.contacts().iter().enumerate().map(bound).collect()

@@ -27,7 +27,7 @@ use crate::history::{Passage, SampledGap};
 use crate::impact::Impact;
 use crate::jumps::{self, Record};
 use crate::mode::{InMode, Least, Mode, slip, tangents};
-use crate::moving::in_time;
+use crate::moving::MovingGaps;
 use crate::problem::InModeProblem;
 use crate::rounding::Rounding;
 use crate::sampling::{self, Holds, with_holds};
@@ -213,7 +213,7 @@ impl<'k, K: ContactSystem, C, E> ContactRun<'k, K, C, NoInput, E> {
             jumps: Jumps::new::<K::Scalar>(value(interval.start), value(interval.end)),
             piles,
             used: 0,
-            moving: in_time(kernel, &q0, &interval),
+            moving: MovingGaps::of(kernel, &q0, &interval),
             recent: Vec::new(),
             last: f64::NEG_INFINITY,
             at_once: 0,
@@ -242,7 +242,7 @@ struct Driver<'k, K: ContactSystem, C, E> {
     /// Steps so far, rejected ones included.
     used: u64,
     /// The largest rate at which each gap changes with the time alone.
-    moving: Rc<[f64]>,
+    moving: MovingGaps,
     /// The contacts of the events, where that is asked.
     recent: Vec<usize>,
     /// The time of the last event, and how many there were at it.
@@ -402,7 +402,7 @@ where
     /// One segment, with what ended it, and the events of the user at its end.
     fn segment(&mut self, from: &Instant<'k, K>, until: K::Scalar) -> Result<(Stop, Vec<usize>), ContactError> {
         let system = InMode::with(self.kernel, &from.modes, self.least(from));
-        let problem = InModeProblem::new(system.clone(), Rc::clone(&self.made.input), Rc::clone(&self.moving));
+        let problem = InModeProblem::new(system.clone(), Rc::clone(&self.made.input), self.moving.clone());
         let witnesses = self.witnesses(from, &problem);
         let watched: Vec<Watched> = witnesses.iter().map(|witness| witness.watched).collect();
         let sampled = Rc::new(RefCell::new(Vec::new()));

@@ -82,6 +82,11 @@ impl<'k, K: ContactSystem> RateBound<InMode<'k, K>> for GapBound<'k, K> {
         )
     }
 
+    fn look(&self) -> Option<f64> {
+        let moves = self.problem.system.kernel.contacts()[self.contact].moves;
+        moves.then_some(self.problem.moving.look)
+    }
+
     fn sampled(&self, start: f64, end: f64) {
         let (mut sampled, contact) = (self.sampled.borrow_mut(), self.contact);
         match sampled.last_mut() {

@@ -3,9 +3,10 @@
 //! Where a function is f₀ and f₁ at the ends of a part of a step of length h and changes by no more than L in a unit of
 //! time, it stays above zero in that part if f₀ + f₁ > L h. Else the part is halved, on the curve of the step, up to
 //! seven times; near zero the curve is replaced by states that the method itself reaches. In what is left, some
-//! thousandths of a step next to zero, the slopes at its ends decide, as for functions without a bound; at an eighth of
-//! a step already where the function is a parabola there, as the gaps of what bounces low are: else each of its bounces
-//! would be a hundred steps.
+//! thousandths of a step next to zero, the slopes at its ends decide, where those within it are of the cubic that the
+//! ends make; else it is halved again, and named where that is given up. At an eighth of a step they decide already where
+//! the function is a parabola there, as the gaps of what bounces low are: else each of its bounces would be a hundred
+//! steps.
 
 use crate::integrate::drive::control::Control;
 use crate::integrate::drive::cubic::StepCubic;
@@ -27,6 +28,10 @@ pub trait RateBound<S: GaussSystem> {
     /// Its rate in a state.
     fn rate(&self, state: &State<S>) -> f64;
 
+    /// The time within which the function is known by looks, where it depends on the time itself: what is flat at both
+    /// ends of a longer one may have come and gone in it.
+    fn look(&self) -> Option<f64>;
+
     /// Hears of a time in which the bound excludes no zero, and the function is not as smooth as to exclude one.
     fn sampled(&self, from: f64, to: f64);
 }
@@ -47,6 +52,10 @@ impl<S: GaussSystem> RateBound<S> for NoBound {
         match *self {}
     }
 
+    fn look(&self) -> Option<f64> {
+        match *self {}
+    }
+
     fn sampled(&self, _: f64, _: f64) {
         match *self {}
     }
@@ -58,6 +67,12 @@ const AGAIN: u32 = 3;
 
 /// The number of halvings that are left where one looks whether the rest is needed: at an eighth of a step.
 const PLAIN: u32 = HALVINGS - 3;
+
+/// The places within a part at which its slopes are looked at: of no order that turns could keep.
+const WITHIN: [f64; 3] = [0.17, 0.44, 0.79];
+
+/// Parts of fewer resolutions are not halved again.
+const SHORTEST: f64 = 16.0;
 
 /// So many parts are halved again in a step.
 const MORE: u32 = 1024;
@@ -80,6 +95,8 @@ struct BoundedFunction<'a, S: GaussSystem, G, A> {
     off: f64,
     rounding: f64,
     resolution: f64,
+    /// The longest part that may be taken for smooth.
+    longest: f64,
     /// The number of parts that may be halved again.
     more: u32,
     /// The time at the start, and the length.
@@ -112,16 +129,17 @@ where
         if a.1 > 0.0 && b.1 > 0.0 && a.1 + b.1 > self.most * width || width <= self.resolution {
             return Ok(None);
         }
-        if halvings == 0 {
-            return self.last(a, b);
+        if halvings == 0 && width <= self.longest {
+            return self.last(a, b, false);
         }
         let middle = 0.5 * (a.0 + b.0);
-        if halvings == PLAIN && self.is_plain(a.0, b.0)? {
-            return self.last(a, b);
+        if halvings == PLAIN && self.longest >= 1.0 && self.is_plain(a.0, b.0)? {
+            return self.last(a, b, true);
         }
         let m = (middle, self.least(middle)?);
-        match self.first(a, m, halvings - 1)? {
-            None => self.first(m, b, halvings - 1),
+        let halvings = halvings.saturating_sub(1);
+        match self.first(a, m, halvings)? {
+            None => self.first(m, b, halvings),
             found => Ok(found),
         }
     }
@@ -139,26 +157,34 @@ where
         Ok(off.max(off_middle) <= plain && self.most.is_finite())
     }
 
-    /// The zero in a part that is not halved again.
-    fn last(&mut self, a: Point, b: Point) -> ZeroResult {
+    /// Whether slopes within a part are those of a cubic, to a sixteenth of them: those at two places are of the parabola
+    /// through three others. Those at the ends alone agree by chance where turns are between them, as one in two do. The
+    /// change of the function has no part in it: on the curve of a step it is off by more than that of a low flight is.
+    fn is_cubic(&mut self, (from, width): Point, [leaves, comes]: [f64; 2]) -> Result<bool, IntegrationErrorKind> {
+        let [early, middle, late] = WITHIN.map(|s| (self.curve)(from + s * width).map(|[_, slope]| width * slope));
+        let (early, middle, late) = (early?, middle?, late?);
+        let at = WITHIN[1];
+        let bend = (middle - leaves - at * (comes - leaves)) / (at * (1.0 - at));
+        let near = leaves.abs().max(comes.abs()).max(middle.abs()) / 16.0 + 4.0 * self.rounding;
+        let off = |s: f64, slope: f64| (leaves + s * (comes - leaves) + s * (1.0 - s) * bend - slope).abs();
+        Ok(off(WITHIN[0], early) <= near && off(WITHIN[2], late) <= near)
+    }
+
+    /// The zero in a part that is not halved again, of which the function may be known to be plain.
+    fn last(&mut self, a: Point, b: Point, plain: bool) -> ZeroResult {
         let start = if a.0 == self.start.0 { self.start } else { (a.0, (self.along)(a.0)?) };
         if start.1 <= 0.0 {
             return self.between(self.start, start);
         }
-        if b.1 <= 0.0 {
-            return self.between(start, b);
-        }
         let width = b.0 - a.0;
         let ([first, leaves], [last, comes]) = ((self.curve)(a.0)?, (self.curve)(b.0)?);
-        if leaves < 0.0 && comes > 0.0 {
-            let Some(dip) = below_zero(&mut self.along, a.0, b.0)? else { return Ok(None) };
-            return self.between(start, dip);
-        }
+        let [leaves, comes] = [leaves, comes].map(|slope| width * slope);
         // As the slopes at its ends make it, to half of them and to rounding.
-        let off = (last - first - 0.5 * width * (leaves + comes)).abs();
-        let smooth = off <= 0.5 * width * leaves.abs().max(comes.abs()) + self.rounding;
-        if smooth && self.most.is_finite() {
-            return Ok(None);
+        let off = (last - first - 0.5 * (leaves + comes)).abs();
+        let smooth = off <= 0.5 * leaves.abs().max(comes.abs()) + self.rounding && self.most.is_finite();
+        let short = width <= SHORTEST * self.resolution;
+        if plain || short || smooth && self.is_cubic((a.0, width), [leaves, comes])? {
+            return self.of_cubic(start, b, [leaves, comes]);
         }
         if self.more > 0 {
             self.more -= 1;
@@ -166,6 +192,18 @@ where
         }
         let [from, length] = self.times;
         self.bound.sampled(from + a.0 * length, from + b.0 * length);
+        self.of_cubic(start, b, [leaves, comes])
+    }
+
+    /// The zero in a part in which the function has one least value at most, told by its slopes at the ends.
+    fn of_cubic(&mut self, start: Point, b: Point, [leaves, comes]: [f64; 2]) -> ZeroResult {
+        if b.1 <= 0.0 {
+            return self.between(start, b);
+        }
+        if leaves < 0.0 && comes > 0.0 {
+            let Some(dip) = below_zero(&mut self.along, start.0, b.0)? else { return Ok(None) };
+            return self.between(start, dip);
+        }
         Ok(None)
     }
 
@@ -224,9 +262,22 @@ where
         let rounding = rounding(self.problem, function, lane, self.made.before.0);
         let off = if self.control.long_steps() { 0.0 } else { self.off(function, bound)? };
         let resolution = self.resolution;
+        let longest = bound.look().map_or(1.0, |look| look / self.duration());
         let (start, more) = (from, MORE);
-        let mut followed =
-            BoundedFunction { bound, curve, along, crossing, start, most, off, rounding, resolution, more, times };
+        let mut followed = BoundedFunction {
+            bound,
+            curve,
+            along,
+            crossing,
+            start,
+            most,
+            off,
+            rounding,
+            resolution,
+            longest,
+            more,
+            times,
+        };
         Ok(followed.first(from, until, HALVINGS)?.or(known))
     }
 
