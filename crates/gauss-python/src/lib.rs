@@ -98,7 +98,7 @@ pub use steps::Methods;
 /// Methods that need a clause, and what is in their place without it.
 #[doc(hidden)]
 pub mod places {
-    pub use gauss_runtime::integrate::{Absent, NoTaylor, Rosenbrock, Taylor};
+    pub use gauss_runtime::integrate::{Absent, JacobianMethod, NoTaylor, Taylor};
 }
 
 /// A module of Python with a class for each struct; its name is that of the library in `Cargo.toml`. Structs that are

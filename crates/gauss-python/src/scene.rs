@@ -166,17 +166,17 @@ macro_rules! __from_numbers {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __steps {
-    ($kernel:ident $rosenbrock:ident $taylor:ident taylor $($step:ident)*) => {
-        $crate::__steps!($kernel $rosenbrock Taylor $($step)*)
+    ($kernel:ident $jacobian:ident $taylor:ident taylor $($step:ident)*) => {
+        $crate::__steps!($kernel $jacobian Taylor $($step)*)
     };
-    ($kernel:ident $rosenbrock:ident $taylor:ident rosenbrock $($step:ident)*) => {
-        $crate::__steps!($kernel Rosenbrock $taylor $($step)*)
+    ($kernel:ident $jacobian:ident $taylor:ident rosenbrock $($step:ident)*) => {
+        $crate::__steps!($kernel JacobianMethod $taylor $($step)*)
     };
-    ($kernel:ident $rosenbrock:ident $taylor:ident contacts) => {
-        $crate::__steps!($kernel $rosenbrock $taylor).with_contacts($kernel::CONTACTS)
+    ($kernel:ident $jacobian:ident $taylor:ident contacts) => {
+        $crate::__steps!($kernel $jacobian $taylor).with_contacts($kernel::CONTACTS)
     };
-    ($kernel:ident $rosenbrock:ident $taylor:ident) => {
-        $crate::Methods::new::<$crate::places::$rosenbrock, $crate::places::$taylor>()
+    ($kernel:ident $jacobian:ident $taylor:ident) => {
+        $crate::Methods::new::<$crate::places::$jacobian, $crate::places::$taylor>()
     };
 }
 

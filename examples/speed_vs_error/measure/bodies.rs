@@ -10,7 +10,7 @@ use super::baselines::baselines;
 use super::by_hand::{self, body_state, coordinates};
 use super::entry::{Entry, Kernel, Setup};
 use super::free_motion::{FreeBody, free_motions};
-use super::methods::{exact_top, explicit, further, left_invariant, series, splitting};
+use super::methods::{exact_top, explicit, further, jacobians, left_invariant, series, splitting};
 use super::scene::{Scene, Target, rows};
 
 /// A body in every chart, and `add`, which adds all methods on all charts.
@@ -20,7 +20,7 @@ macro_rules! every_chart {
         mod $module {
             use super::*;
 
-            every_chart!(@one Left, [left_invariant, taylor], [$($clauses)*], $fields);
+            every_chart!(@one Left, [left_invariant, taylor, linearize], [$($clauses)*], $fields);
             every_chart!(@one Right, [right_invariant], [$($clauses)*], $fields);
             every_chart!(@one Hybrid, [hybrid], [$($clauses)*], $fields);
             every_chart!(@one Angles, [jet(euler_zyx)], [$($clauses)*], $fields);
@@ -84,7 +84,7 @@ every_chart! {
 /// Adds a scene in every chart: `$fields` are those of the structs of the module.
 macro_rules! add_charts {
     ($module:ident, $fields:tt, $scene:expr, $target:expr, $entries:expr) => {{
-        add_charts!(@one $module, Left, "body velocities", $fields, $scene, $target, $entries, further left_invariant series);
+        add_charts!(@one $module, Left, "body velocities", $fields, $scene, $target, $entries, further left_invariant series jacobians);
         add_charts!(@one $module, Right, "space velocities", $fields, $scene, $target, $entries);
         add_charts!(@one $module, Hybrid, "hybrid", $fields, $scene, $target, $entries);
         add_charts!(@one $module, Angles, "Euler angles", $fields, $scene, $target, $entries);

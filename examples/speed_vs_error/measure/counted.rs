@@ -6,7 +6,7 @@ use std::cell::Cell;
 
 use gauss_runtime::prelude::*;
 
-/// A kernel and a count of its accelerations, rates of momentum and series. Runs that are timed count too, as those of
+/// A kernel and a count of its accelerations, rates of momentum, linearisations and series. Runs that are timed count too, as those of
 /// the baselines do: it is one addition an evaluation.
 #[derive(Clone)]
 pub struct Counted<S> {
@@ -45,6 +45,18 @@ impl<S: GaussSystem> GaussSystem for Counted<S> {
     #[inline(always)]
     fn momentum_rate(&self, t: S::Scalar, q: &S::Configuration, p: &S::Speeds, input: &S::Input) -> S::Speeds {
         self.counting().momentum_rate(t, q, p, input)
+    }
+}
+
+impl<S: LinearizedSystem> LinearizedSystem for Counted<S> {
+    type Linearization = S::Linearization;
+
+    const STATE_PATTERN: &'static [&'static [bool]] = S::STATE_PATTERN;
+    const INPUT_PATTERN: &'static [&'static [bool]] = S::INPUT_PATTERN;
+
+    #[inline(always)]
+    fn linearize(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds, input: &S::Input) -> S::Linearization {
+        self.counting().linearize(t, q, z, input)
     }
 }
 

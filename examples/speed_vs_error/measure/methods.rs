@@ -4,7 +4,10 @@
 use gauss_exact::BodyConfiguration;
 use gauss_exact::{Scheme, Splitting, SplittingError};
 use gauss_exact::{TopError, TopFlow};
-use gauss_runtime::integrate::{Composed, Composition, Fixed, Form, Method, MethodControl, StepSetting, Variational};
+use gauss_runtime::integrate::{
+    Absent, Composed, Composition, EstimatingStep, Fixed, Form, JacobianMethod, Method, MethodControl, MethodPlace,
+    StepSetting, Variational,
+};
 use gauss_runtime::prelude::*;
 
 use super::counted::Counted;
@@ -28,20 +31,28 @@ pub fn further<S: Kernel>(entries: &mut Vec<Entry>, setup: &Setup<S>) {
 
 fn by_name<S: Kernel>(entries: &mut Vec<Entry>, setup: &Setup<S>, wanted: impl Fn(Method) -> bool) {
     for &method in Method::ALL.iter().filter(|&&method| method.clause().is_none() && wanted(method)) {
-        by_name_in(entries, setup, method, ("velocity", VelocityForm));
-        by_name_in(entries, setup, method, ("momentum", MomentumForm));
+        by_name_in::<S, _, Absent>(entries, setup, method, ("velocity", VelocityForm));
+        by_name_in::<S, _, Absent>(entries, setup, method, ("momentum", MomentumForm));
     }
 }
 
-fn by_name_in<S: Kernel, F: Form<Counted<S>> + 'static>(
-    entries: &mut Vec<Entry>,
-    s: &Setup<S>,
-    method: Method,
-    form: (&'static str, F),
-) {
-    let of_length = move |h| MethodControl::<f64>::new(method, StepSetting::Equal(h)).expect("steps of one length");
+/// The methods of the table that need derivatives, for kernels with the clause `linearize`.
+pub fn jacobians<S: Kernel + LinearizedSystem>(entries: &mut Vec<Entry>, setup: &Setup<S>) {
+    for &method in Method::ALL.iter().filter(|method| method.clause() == Some("linearize")) {
+        by_name_in::<S, _, JacobianMethod>(entries, setup, method, ("velocity", VelocityForm));
+    }
+}
+
+fn by_name_in<S, F, R>(entries: &mut Vec<Entry>, s: &Setup<S>, method: Method, form: (&'static str, F))
+where
+    S: Kernel,
+    F: Form<Counted<S>> + 'static,
+    R: MethodPlace<JacobianMethod> + EstimatingStep<Counted<S>> + 'static,
+{
+    let of_length = move |h| MethodControl::<f64, R>::new(method, StepSetting::Equal(h)).expect("steps of one length");
     let tolerant = move |tolerance| {
-        MethodControl::<f64>::new(method, StepSetting::tolerant(tolerance, tolerance)).expect("an estimate of errors")
+        MethodControl::<f64, R>::new(method, StepSetting::tolerant(tolerance, tolerance))
+            .expect("an estimate of errors")
     };
     if method.takes_length() {
         let setting = Setting::Step(method.order().expect("an order of steps of one length"));

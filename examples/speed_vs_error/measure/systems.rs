@@ -9,12 +9,13 @@ use super::baselines::baselines;
 use super::by_hand::coordinates;
 use super::by_hand_systems as by_hand;
 use super::entry::{Entry, Setup};
-use super::methods::{exact_top, explicit, further, series};
+use super::methods::{exact_top, explicit, further, jacobians, series};
 use super::scene::{Scene, Target, rows};
 
 #[derive(GaussDynamics)]
 #[gauss(
     taylor,
+    linearize,
     coordinates(theta, phi),
     particle(mass = 1, position = [l * sin(theta) * cos(phi), l * sin(theta) * sin(phi), -l * cos(theta)]),
 )]
@@ -51,6 +52,7 @@ struct Thread {
 #[derive(GaussDynamics)]
 #[gauss(
     taylor,
+    linearize,
     coordinates(a, b),
     particle(mass = m1, position = [l1 * sin(a), 0, -l1 * cos(a)]),
     particle(mass = m2, position = [l1 * sin(a) + l2 * sin(b), 0, -l1 * cos(a) - l2 * cos(b)]),
@@ -69,6 +71,7 @@ struct DoublePendulum {
 #[derive(GaussDynamics)]
 #[gauss(
     taylor,
+    linearize,
     coordinates(x, y, phi, theta, psi),
     speeds(w1, w2, w3),
     kinematics(
@@ -95,6 +98,7 @@ struct Disk {
 #[derive(GaussDynamics)]
 #[gauss(
     taylor,
+    linearize,
     coordinates(x, y, attitude: Rotation),
     speeds(w: Vector3),
     define(
@@ -120,6 +124,7 @@ struct DiskWithoutAngles {
 #[derive(GaussDynamics)]
 #[gauss(
     taylor,
+    linearize,
     coordinates(x, y, theta),
     speeds(v, omega),
     kinematics(x = v * cos(theta), y = v * sin(theta), theta = omega),
@@ -172,6 +177,7 @@ pub fn spherical_pendulum(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<T
     explicit(entries, &setup);
     further(entries, &setup);
     series(entries, &setup);
+    jacobians(entries, &setup);
 
     let kernel = Thread { l, g }.kernel()?;
     let setup = Setup {
@@ -225,6 +231,7 @@ pub fn double_pendulum(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<Targ
     explicit(entries, &setup);
     further(entries, &setup);
     series(entries, &setup);
+    jacobians(entries, &setup);
     let equations = by_hand::DoublePendulum { masses: [m1, m2], lengths: [l1, l2], gravity: g };
     baselines(entries, "angles", equations, [wa, wb, a, b], target);
     Ok(())
@@ -257,6 +264,7 @@ pub fn rolling_disk(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<Target>
     };
     explicit(entries, &setup);
     series(entries, &setup);
+    jacobians(entries, &setup);
 
     let setup = Setup {
         chart: "rotation and contact",
@@ -271,6 +279,7 @@ pub fn rolling_disk(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<Target>
     explicit(entries, &setup);
     further(entries, &setup);
     series(entries, &setup);
+    jacobians(entries, &setup);
 
     let [x, y, z, w] = coordinates(&pose.rotation);
     let equations = by_hand::Disk { mass: m, inertia: [j.x, j.z], radius: r, gravity: g };
@@ -305,6 +314,7 @@ pub fn sleigh(entries: &mut Vec<Entry>, scene: &Scene, target: &Rc<Target>) -> A
     explicit(entries, &setup);
     further(entries, &setup);
     series(entries, &setup);
+    jacobians(entries, &setup);
 
     let sleigh = RigidBody { mass: m, center_of_mass: lever, inertia: Matrix3::from_diagonal(&j) };
     let kernel = Edge { sleigh }.kernel()?;

@@ -8,6 +8,7 @@
 //! | [`lie_group`] | [`rkmk`](lie_group::rkmk): Runge–Kutta–Munthe-Kaas steps; [`commutator_free`](lie_group::commutator_free): a method of order 4; [`discrete`](lie_group::discrete): exact derivatives of its steps, transition matrices for filters and regulators |
 //! | [`structure`] | [`collocation`](structure::collocation): Gauss' implicit methods of orders 2, 4, 6, symmetric; [`composition`](structure::composition): symmetric methods composed to higher orders; [`variational`](structure::variational): symplectic in the left-invariant chart; [`energy_momentum`](structure::energy_momentum): energy and momenta of bodies at once |
 //! | [`rosenbrock`] | a linearly implicit method of order 4 for stiff scenes |
+//! | [`radau`] | an implicit method of order 5 for scenes whose stiffness follows what the time moves |
 //! | [`adams`] | multistep methods: from the derivatives of earlier steps |
 //! | [`taylor`] | power series of the solution, where the derive gives them |
 //! | [`choice`] | methods by name, for programs whose users choose one. [`method`](choice::method): the table, with a row for each [`Method`]; [`step`](choice::step), [`control`](choice::control): all of them as one type |
@@ -18,6 +19,7 @@ pub mod choice;
 pub mod drive;
 pub mod lie_group;
 pub mod problem;
+pub mod radau;
 pub mod rosenbrock;
 pub mod runge_kutta;
 pub mod step;
@@ -28,7 +30,7 @@ pub use adams::Adams;
 pub use choice::control::{MethodControl, StepSetting};
 pub use choice::error::{MethodError, UnknownMethod};
 pub use choice::method::Method;
-pub use choice::step::{Absent, MethodPair, MethodPlace, MethodStep, NoTaylor};
+pub use choice::step::{Absent, JacobianMethod, MethodPair, MethodPlace, MethodStep, NoTaylor};
 #[cfg(feature = "alloc")]
 pub use drive::RunRecord;
 pub use drive::adaptive::Adaptive;
@@ -54,6 +56,7 @@ pub use problem::input::{Feedback, InputSource, NoInput};
 #[cfg(feature = "alloc")]
 pub use problem::sampled::Controller;
 pub use problem::state::{Rates, Sample, State};
+pub use radau::Radau;
 pub use rosenbrock::Rosenbrock;
 pub use runge_kutta::components::RungeKutta;
 pub use runge_kutta::tableau::{Classical4, Coefficients, DormandPrince5, DormandPrince8, Tableau, Verner9};

@@ -4,23 +4,20 @@
 //! method solves a linear system in each stage instead, with the Jacobian that the derive writes
 //! ([`LinearizedSystem`]), and no iteration: it is L-stable, so steps can be as long as what one looks at allows.
 //!
-//! In the chart `q = q₀ ∘ exp(σ)` about the start of the step the equations are `σ̇ = dexp_inv(σ, V)` and ż = f on a
-//! linear space, where the method keeps its order. Their Jacobian at σ = 0 is that of (V, ż) and the first term of
-//! dexp⁻¹: ½ [·, V].
+//! The method works in the chart about the start of the step (`step/start.rs`), which is a linear space: it keeps its
+//! order there.
 //!
 //! Coefficients: E. Hairer & G. Wanner, *Solving Ordinary Differential Equations II*, IV.7 and IV.10, code RODAS; a
 //! test verifies the order conditions.
 
-use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::drive::step_length::power;
+use crate::configuration::VectorSpace;
 use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
-use crate::integrate::problem::state::{Rates, State, TangentOf};
-use crate::integrate::step::checks::{check_chart, check_increment};
+use crate::integrate::problem::error::IntegrationErrorKind;
+use crate::integrate::problem::state::{Rates, State};
 use crate::integrate::step::one_step::{EstimatingStep, OneStep, Properties, Step, check_contacts};
-use crate::linearize::{Factored, LinearModel, LinearizedSystem, brackets};
+use crate::integrate::step::start::{Model, Start, Vector, positive_length};
+use crate::linearize::{Factored, LinearModel, LinearizedSystem};
 use crate::real::Real;
-use crate::system::GaussSystem;
 
 const STAGES: usize = 6;
 
@@ -109,9 +106,6 @@ assert!((end.q[0] / (slow * 10.0).exp() - 1.0).abs() < 1e-3);
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Rosenbrock;
 
-type Model<S> = <S as LinearizedSystem>::Linearization;
-type Vector<S> = <Model<S> as LinearModel<<S as GaussSystem>::Scalar>>::Vector;
-
 impl<S: LinearizedSystem> OneStep<S> for Rosenbrock {
     fn properties(&self) -> Properties {
         Properties { stiff: true, ..Properties::of_order(4) }
@@ -130,17 +124,12 @@ impl<S: LinearizedSystem> OneStep<S> for Rosenbrock {
         check_contacts(problem)?;
         let number = S::Scalar::from_f64;
         let one = S::Scalar::one();
-        let system = problem.system();
-        let start = Start { t: state.t, q: state.q, z: problem.speeds(state.t, &state.q, &state.y) };
-        let input = problem.input(start.t, &start.q, &start.z);
-        let linear = system.linearize(start.t, &start.q, &start.z, &input);
-        let mut bracket = brackets::<S>(&linear, rates.configuration);
-        let mut feedback = feedback(problem, &start, &linear);
-        // Lanes without a run make steps of no length, which has no reciprocal: one that moves nothing stands for it.
-        let length = S::Scalar::select_lt(h.abs(), number(1e-30), number(1e-30), h);
+        let start = Start::of(problem, state);
+        let (linear, input) = start.linearize(problem, rates);
+        let length = positive_length(h);
         let diagonal = one / (length * number(GAMMA));
         let factors = Model::<S>::factor(|row, column| {
-            let slope = linear.by_state(row, column) + bracket(row, column) + feedback(row, column);
+            let slope = linear.by_state(row, column);
             if row == column { diagonal - slope } else { -slope }
         });
         let by_time = start.by_time(problem, &linear, &input, h);
@@ -165,19 +154,8 @@ impl<S: LinearizedSystem> OneStep<S> for Rosenbrock {
             right = right.add_scaled(number(TIME_SLOPES[i]) * h, &by_time);
             stages[i] = factors.solve(&right);
         }
-        let (q, z) = start.moved(&increment.add_scaled(one, &stages[STAGES - 1]))?;
-        let (configuration, error) = start.split(&stages[STAGES - 1]);
-        let t = state.t + h;
-        let q = q.renormalise();
-        let y = problem.variables(t, &q, &z);
-        let embedded = problem.variables(t, &q, &z.add_scaled(-one, &error));
-        let error = Rates { configuration, variables: y.add_scaled(-one, &embedded) };
-        let end = State { t, q, y };
-        check_chart(problem.system(), state, &end)?;
-        if !(end.q.is_finite() && end.y.is_finite() && error.is_finite()) {
-            return Err(IntegrationErrorKind::NonFinite { part: RunPart::Step });
-        }
-        Ok(Step { state: end, error, rates: None })
+        let last = &stages[STAGES - 1];
+        start.step(problem, state, h, (&increment.add_scaled(one, last), last))
     }
 }
 
@@ -185,120 +163,6 @@ impl<S: LinearizedSystem> OneStep<S> for Rosenbrock {
 impl<S: LinearizedSystem> EstimatingStep<S> for Rosenbrock {
     fn estimate_order(&self) -> f64 {
         4.0
-    }
-}
-
-/// State at which a step starts, in z.
-struct Start<S: GaussSystem> {
-    t: S::Scalar,
-    q: S::Configuration,
-    z: S::Speeds,
-}
-
-impl<S: LinearizedSystem> Start<S> {
-    /// (σ, δz).
-    fn split(&self, increment: &Vector<S>) -> (TangentOf<S>, S::Speeds) {
-        let (mut sigma, mut speeds) = (TangentOf::<S>::zero(), S::Speeds::zero());
-        for i in 0..TangentOf::<S>::DIM {
-            sigma.set_component(i, increment.component(i));
-        }
-        for i in 0..S::Speeds::DIM {
-            speeds.set_component(i, increment.component(TangentOf::<S>::DIM + i));
-        }
-        (sigma, speeds)
-    }
-
-    /// (q ∘ exp σ, z + δz).
-    fn moved(&self, increment: &Vector<S>) -> Result<(S::Configuration, S::Speeds), IntegrationErrorKind> {
-        let (configuration, variables) = self.split(increment);
-        check_increment::<S>(&Rates { configuration, variables })?;
-        Ok((self.q.retract(&configuration), self.z.add_scaled(S::Scalar::one(), &variables)))
-    }
-
-    /// (dexp_inv(σ, V), ż) at a state that an increment leads to.
-    fn rates<P: Problem<System = S>>(
-        &self,
-        problem: &P,
-        increment: &Vector<S>,
-        (q, z): &(S::Configuration, S::Speeds),
-        t: S::Scalar,
-    ) -> Vector<S> {
-        let input = problem.input(t, q, z);
-        let velocity = problem.system().configuration_rates(t, q, z, &input);
-        let velocity = S::Configuration::dexp_inv(&self.split(increment).0, &velocity);
-        let acceleration = problem.system().acceleration(t, q, z, &input);
-        let mut rates = Vector::<S>::zero();
-        for i in 0..TangentOf::<S>::DIM {
-            rates.set_component(i, velocity.component(i));
-        }
-        for i in 0..S::Speeds::DIM {
-            rates.set_component(TangentOf::<S>::DIM + i, acceleration.component(i));
-        }
-        rates
-    }
-
-    /// ∂(V, ż)/∂t, that through the input included. The derivative of the input is that of the polynomial through five
-    /// points of the step, so that no input is evaluated at times outside the run.
-    fn by_time<P: Problem<System = S>>(
-        &self,
-        problem: &P,
-        linear: &Model<S>,
-        now: &S::Input,
-        h: S::Scalar,
-    ) -> Vector<S> {
-        let mut slope = *linear.by_time();
-        if S::Input::DIM == 0 {
-            return slope;
-        }
-        let mut rate = now.scale(S::Scalar::ratio(-25, 3) / h);
-        for (k, thirds) in [(1, 48), (2, -36), (3, 16), (4, -3)] {
-            let later = problem.input(S::Scalar::ratio(k, 4).fma(h, self.t), &self.q, &self.z);
-            rate = rate.add_scaled(S::Scalar::ratio(thirds, 3) / h, &later);
-        }
-        for row in 0..Vector::<S>::DIM {
-            slope.set_component(row, through_input::<S>(linear, row, &rate, slope.component(row)));
-        }
-        slope
-    }
-}
-
-/// `∂(V, ż)/∂input · rate + onto`, one row.
-fn through_input<S: LinearizedSystem>(linear: &Model<S>, row: usize, rate: &S::Input, onto: S::Scalar) -> S::Scalar {
-    (0..S::Input::DIM).fold(onto, |sum, k| linear.by_input(row, k).fma(rate.component(k), sum))
-}
-
-/// The contribution of an input that depends on the state to ∂(V, ż)/∂(σ, z), entry by entry, column after column: by
-/// central differences over a distance of ε^⅓, where truncation and rounding errors are about equal.
-fn feedback<S: LinearizedSystem, P: Problem<System = S>>(
-    problem: &P,
-    start: &Start<S>,
-    linear: &Model<S>,
-) -> impl FnMut(usize, usize) -> S::Scalar {
-    let input = |column: usize, distance: f64| {
-        let mut axis = Vector::<S>::zero();
-        axis.set_component(column, S::Scalar::from_f64(distance));
-        let (sigma, speeds) = start.split(&axis);
-        let z = start.z.add_scaled(S::Scalar::one(), &speeds);
-        problem.input(start.t, &start.q.retract(&sigma), &z)
-    };
-    let slope = move |column: usize| {
-        let size = match column.checked_sub(TangentOf::<S>::DIM) {
-            None => start.q.magnitude(column),
-            Some(k) => (0..S::Scalar::LANES).map(|lane| start.z.component(k).lane(lane).abs()).fold(0.0, f64::max),
-        };
-        let distance = power(S::Scalar::EPSILON, 1.0 / 3.0) * size.max(1.0);
-        let difference = input(column, distance).add_scaled(-S::Scalar::one(), &input(column, -distance));
-        difference.scale(S::Scalar::from_f64(0.5 / distance))
-    };
-    let mut known = (usize::MAX, S::Input::zero());
-    move |row, column| {
-        if S::Input::DIM == 0 {
-            return S::Scalar::zero();
-        }
-        if known.0 != column {
-            known = (column, slope(column));
-        }
-        through_input::<S>(linear, row, &known.1, S::Scalar::zero())
     }
 }
 

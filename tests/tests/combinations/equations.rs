@@ -17,7 +17,7 @@ pub const SMOOTH: Row = Row {
         ("fix", shown("tests/tests/runs/integrators.rs", "orders_on_a_heavy_top_against_its_reference")),
         ("ada", shown("gauss-runtime/src/integrate/tests.rs", "adaptive_steps_keep_the_tolerance_and_save_work")),
         ("tay", shown("tests/tests/runs/taylor/runs.rs", "tops_reach_their_references_at_every_tolerance")),
-        ("ros", shown("tests/tests/runs/rosenbrock.rs", "what_decays_fast_is_gone_after_a_step")),
+        ("ros", shown("tests/tests/stiff/main.rs", "what_decays_fast_is_gone_after_a_step")),
         ("imp", shown("tests/long_runs/tests/energy_momentum.rs", "orders_against_a_reference")),
         ("evt", refused(NO_CONTACTS)),
         ("stp", refused(NO_CONTACTS)),
@@ -79,7 +79,7 @@ pub const CONSTRAINTS: Row = Row {
                 "energy_is_kept_where_digits_are_lost_or_the_run_ends_with_the_reason",
             ),
         ),
-        ("ros", shown("tests/tests/runs/rosenbrock.rs", "constraints_are_kept")),
+        ("ros", shown("tests/tests/stiff/main.rs", "constraints_are_kept")),
         (
             "imp",
             shown("gauss-runtime/src/integrate/structure/collocation_tests.rs", "constraints_hold_and_the_order_stays"),
@@ -332,7 +332,7 @@ pub const INPUTS: Row = Row {
         ),
         ("ada", shown("crates/gauss-contact/tests/laws/pushes.rs", "a_body_at_rest_without_contacts_is_pushed_too")),
         ("tay", refused(NO_SERIES).by("tests/compile_fail/taylor.rs", "main")),
-        ("ros", shown("tests/tests/runs/rosenbrock.rs", "order_4_in_every_chart_with_feedback")),
+        ("ros", shown("tests/tests/stiff/main.rs", "orders_in_every_chart_with_feedback")),
         ("imp", shown("gauss-runtime/src/integrate/structure/collocation_tests.rs", "orders_in_both_forms")),
         ("evt", shown("tests/tests/touching/main.rs", "a_motor_holds_a_pendulum_at_its_stop")),
         (

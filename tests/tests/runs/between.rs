@@ -1,7 +1,7 @@
 //! States between samples are as accurate as the samples, by every method, and tables of them.
 
 use gauss_exact::{Scheme, Splitting};
-use gauss_runtime::integrate::{Compensated, Composed, Composition, Control, Fixed, Rkmk};
+use gauss_runtime::integrate::{Compensated, Composed, Composition, Control, Fixed, Radau, Rkmk};
 use gauss_runtime::prelude::*;
 use gauss_tables::Tabulate;
 use gauss_tests::top::{Top, TopKernel};
@@ -49,6 +49,7 @@ fn states_between_samples_have_their_error() {
             ("Verner 9", errors(Adaptive::by(RungeKutta(Verner9), tolerance, tolerance), every)),
             ("in the algebra", errors(Adaptive::with(&Tableau::DORMAND_PRINCE_8, tolerance, tolerance), every)),
             ("Rosenbrock", errors(Adaptive::by(Rosenbrock, 1e-7, 1e-7), every)),
+            ("Radau", errors(Adaptive::by(Radau, 1e-7, 1e-7), every)),
             ("steps of order 8", errors(Fixed::new(0.5), every)),
             ("Runge–Kutta 4", errors(Fixed::by(RungeKutta(Classical4), 0.1), every)),
             ("commutator-free", errors(Fixed::by(CommutatorFree4, 0.1), every)),

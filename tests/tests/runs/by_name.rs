@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use gauss_batch::{Batch, LaneControl, States};
-use gauss_runtime::integrate::{Adams, Control, Fixed, Method, MethodControl, StepSetting};
+use gauss_runtime::integrate::{Adams, Control, Fixed, JacobianMethod, Method, MethodControl, Radau, StepSetting};
 use gauss_runtime::prelude::*;
 
 /// A heavy top with a damper.
@@ -71,7 +71,7 @@ fn bits<C: Control<TopKernel<f64>> + Copy>(control: C) -> Vec<u64> {
 fn runs_have_the_bits_of_the_own_type() {
     let [mut of_length, mut tolerant] = [BTreeSet::new(), BTreeSet::new()];
     let named = |method: Method, setting| {
-        bits(MethodControl::<f64, Rosenbrock, Taylor>::new(method, setting).expect("a place for it"))
+        bits(MethodControl::<f64, JacobianMethod, Taylor>::new(method, setting).expect("a place for it"))
     };
     let mut equal = |method: Method, own: Vec<u64>| {
         assert_eq!(named(method, StepSetting::Equal(LENGTH)), own, "{method}");
@@ -81,6 +81,7 @@ fn runs_have_the_bits_of_the_own_type() {
     equal(Method::DormandPrince5, bits(Fixed::by(RungeKutta(DormandPrince5), LENGTH)));
     equal(Method::Verner9, bits(Fixed::by(RungeKutta(Verner9), LENGTH)));
     equal(Method::Rosenbrock, bits(Fixed::by(Rosenbrock, LENGTH)));
+    equal(Method::Radau, bits(Fixed::by(Radau, LENGTH)));
     equal(Method::Collocation6, bits(Fixed::by(Collocation::order_6(), LENGTH)));
     equal(Method::Collocation4, bits(Fixed::by(Collocation::order_4(), LENGTH)));
     equal(Method::Collocation2, bits(Fixed::by(Collocation::midpoint(), LENGTH)));
@@ -101,6 +102,7 @@ fn runs_have_the_bits_of_the_own_type() {
     keeps(Method::DormandPrince5, own!(RungeKutta(DormandPrince5)));
     keeps(Method::Verner9, own!(RungeKutta(Verner9)));
     keeps(Method::Rosenbrock, own!(Rosenbrock));
+    keeps(Method::Radau, own!(Radau));
     keeps(Method::Taylor, bits(Taylor::new(1e-8, 1e-10).largest_step(0.4)));
     // Every row of the table was there.
     let rows =
@@ -110,7 +112,7 @@ fn runs_have_the_bits_of_the_own_type() {
 }
 
 /// In lanes, each run has the bits that it has alone, whatever the method. Series have one order for the lanes of a
-/// block, and iterations go on until all lanes are done: of these the own type in lanes is compared.
+/// block, and fixed-point iterations go on until all lanes are done: of these the own type in lanes is compared.
 #[test]
 fn lanes_have_the_bits_of_single_runs() {
     type Four = Lanes<f64, 4>;
@@ -122,7 +124,7 @@ fn lanes_have_the_bits_of_single_runs() {
         let numbers = states.iter().flat_map(|(q, z)| q.coords.iter().chain(z.iter()).copied().collect::<Vec<_>>());
         numbers.map(f64::to_bits).chain(steps).collect()
     }
-    fn alone(control: MethodControl<f64, Rosenbrock, Taylor>) -> Vec<u64> {
+    fn alone(control: MethodControl<f64, JacobianMethod, Taylor>) -> Vec<u64> {
         let kernel = top::<f64>();
         let ends = (0..6).map(|i| {
             let (q, z) = start(i);
@@ -135,8 +137,9 @@ fn lanes_have_the_bits_of_single_runs() {
     let mut compared = 0;
     for &method in Method::ALL {
         for setting in [StepSetting::Equal(LENGTH), TOLERANT] {
-            let Ok(control) = MethodControl::<f64, Rosenbrock, Taylor>::new(method, setting) else { continue };
-            let packs = MethodControl::<Four, Rosenbrock, Taylor>::new(method, setting.in_scalar()).expect("the same");
+            let Ok(control) = MethodControl::<f64, JacobianMethod, Taylor>::new(method, setting) else { continue };
+            let packs =
+                MethodControl::<Four, JacobianMethod, Taylor>::new(method, setting.in_scalar()).expect("the same");
             let expected = match method {
                 Method::Taylor => in_lanes(Taylor::new(1e-8, 1e-10).largest_step(0.4)),
                 Method::Collocation6 => in_lanes(Fixed::by(Collocation::order_6(), Four::splat(LENGTH))),
@@ -148,6 +151,6 @@ fn lanes_have_the_bits_of_single_runs() {
             compared += 1;
         }
     }
-    // All rows, of which four make both kinds of steps.
-    assert_eq!(compared, Method::ALL.len() + 4);
+    // All rows, of which five make both kinds of steps.
+    assert_eq!(compared, Method::ALL.len() + 5);
 }

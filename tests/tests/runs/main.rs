@@ -9,7 +9,6 @@ mod events;
 mod higher_precision;
 mod integrators;
 mod lanes;
-mod rosenbrock;
 mod sampled;
 mod splitting;
 mod taylor;

@@ -112,7 +112,7 @@ pub fn simulate(kernel: &Kernel, sizes: &Sizes, request: &Request<'_>) -> Result
             in_its_room(&system, sizes, request, |q, request| smooth::<_, Absent, NoTaylor>(&system, q, request))
         }; 128),
         _ => in_room!(kernel, least(sizes), |system| {
-            in_its_room(&system, sizes, request, |q, request| smooth::<_, Rosenbrock, NoTaylor>(&system, q, request))
+            in_its_room(&system, sizes, request, |q, request| smooth::<_, JacobianMethod, NoTaylor>(&system, q, request))
         }; 4 8 16 32 64),
     }
 }

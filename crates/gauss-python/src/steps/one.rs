@@ -3,7 +3,7 @@
 use gauss_runtime::contact::{Contact, ContactSystem};
 use gauss_runtime::integrate::drive::each::Each;
 use gauss_runtime::integrate::{
-    Control as Steps, EstimatingStep, IntegrationError, MethodControl, MethodError, MethodPlace,
+    Control as Steps, EstimatingStep, IntegrationError, JacobianMethod, MethodControl, MethodError, MethodPlace,
 };
 use gauss_runtime::prelude::*;
 
@@ -34,12 +34,12 @@ pub struct Methods<S> {
 }
 
 impl<S: System<Scalar = f64>> Methods<S> {
-    /// Runs without contacts: `R` and `P` are [`Rosenbrock`] and [`Taylor`] where the system has what these need, as
+    /// Runs without contacts: `R` and `P` are [`JacobianMethod`] and [`Taylor`] where the system has what these need, as
     /// the words in `steps` of [`scene!`](crate::scene) say.
     #[must_use]
     pub fn new<R, P>() -> Self
     where
-        for<'a> R: MethodPlace<Rosenbrock> + EstimatingStep<Stoppable<'a, S>>,
+        for<'a> R: MethodPlace<JacobianMethod> + EstimatingStep<Stoppable<'a, S>>,
         for<'a> P: MethodPlace<Taylor> + Steps<Stoppable<'a, S>>,
     {
         Self { smooth: |system, request| smooth::<S, R, P>(system, configuration(request.q)?, request), contacts: None }
@@ -94,7 +94,7 @@ impl<S: System<Scalar = f64>> Methods<S> {
 /// A method that needs a clause, or contacts; times of a controller that are no multiples of the step.
 pub fn smooth<'a, S: Moving, R, P>(system: &'a S, q: S::Configuration, request: &Request<'a>) -> Result<Outcome, String>
 where
-    R: MethodPlace<Rosenbrock> + EstimatingStep<Stoppable<'a, S>>,
+    R: MethodPlace<JacobianMethod> + EstimatingStep<Stoppable<'a, S>>,
     P: MethodPlace<Taylor> + Steps<Stoppable<'a, S>>,
 {
     let Control::Smooth(method, setting) = request.control else { return Err(no_contacts()) };

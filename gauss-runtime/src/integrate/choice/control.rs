@@ -3,7 +3,7 @@
 use crate::integrate::adams::Adams;
 use crate::integrate::choice::error::MethodError;
 use crate::integrate::choice::method::{Method, with_methods};
-use crate::integrate::choice::step::{Absent, MethodPair, MethodPlace, MethodStep, NoTaylor};
+use crate::integrate::choice::step::{Absent, JacobianMethod, MethodPair, MethodPlace, MethodStep, NoTaylor};
 use crate::integrate::drive::adaptive::Adaptive;
 use crate::integrate::drive::control::{Control, Progress, StepCallback};
 use crate::integrate::drive::fixed::Fixed;
@@ -11,7 +11,6 @@ use crate::integrate::drive::tolerance::Tolerance;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
 use crate::integrate::problem::state::{Rates, State};
-use crate::integrate::rosenbrock::Rosenbrock;
 use crate::integrate::step::one_step::EstimatingStep;
 use crate::integrate::taylor::Taylor;
 use crate::real::Real;
@@ -56,6 +55,7 @@ impl StepSetting<f64> {
 macro_rules! control {
     (
         pairs { $($pairs:tt)+ }
+        jacobians { $($jacobians:tt)+ }
         singles { $($singles:tt)+ }
         multisteps { $(
             $(#[$about:meta])+ $multi:ident $name:literal $order:literal $clause:literal [$($word:literal),*]
@@ -66,7 +66,7 @@ macro_rules! control {
                 [$($series_word:literal),*] $series_explicit:ident: $series_value:expr => $series_type:ty;
         )+ }
     ) => {
-        impl<T: Real, R: MethodPlace<Rosenbrock>, P: MethodPlace<Taylor>> MethodControl<T, R, P> {
+        impl<T: Real, R: MethodPlace<JacobianMethod>, P: MethodPlace<Taylor>> MethodControl<T, R, P> {
             /// The control of a method with such steps.
             ///
             /// # Errors
@@ -110,7 +110,7 @@ macro_rules! control {
         ///
         /// A run by it has the bits of one by the method's own type, and asks once for each call of
         /// [`advance`](Control::advance), and for each step, which method it is. `R` and `P` are
-        /// [`Rosenbrock`] and [`Taylor`] where the system is one of
+        /// [`JacobianMethod`] and [`Taylor`] where the system is one of
         /// [`LinearizedSystem`](crate::linearize::LinearizedSystem), and [`TaylorSystem`](crate::series::TaylorSystem).
         #[derive(Clone, Copy, Debug)]
         pub enum MethodControl<T, R = Absent, P = NoTaylor> {
@@ -263,7 +263,7 @@ impl Method {
     ///
     /// # Errors
     /// [`MethodError`]: the method makes no such steps, or needs a clause that there is no place for.
-    pub fn control<T: Real, R: MethodPlace<Rosenbrock>, P: MethodPlace<Taylor>>(
+    pub fn control<T: Real, R: MethodPlace<JacobianMethod>, P: MethodPlace<Taylor>>(
         self,
         setting: StepSetting<T>,
     ) -> Result<MethodControl<T, R, P>, MethodError> {

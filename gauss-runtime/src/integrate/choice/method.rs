@@ -10,12 +10,12 @@ use crate::integrate::choice::error::UnknownMethod;
 ///
 /// `Variant "name" order "clause that it needs" [names elsewhere] explicit|implicit: value => type;`
 ///
-/// Pairs estimate their errors; singles, which are written without their type, make steps of one length alone.
-/// Multisteps are controls of such steps, made from the length, and series are controls that choose their steps, made
-/// from two tolerances and the longest step. In types `T` is the scalar; `R` and `P` are [`Rosenbrock`] and [`Taylor`]
-/// where a control has a place for them.
+/// Pairs estimate their errors, and so do those with Jacobians, which need a place in the control; singles, which are
+/// written without their type, make steps of one length alone. Multisteps are controls of such steps, made from the
+/// length, and series are controls that choose their steps, made from two tolerances and the longest step. In types `T`
+/// is the scalar; `R` and `P` are [`JacobianMethod`] and [`Taylor`] where a control has a place for them.
 ///
-/// [`Rosenbrock`]: crate::integrate::Rosenbrock
+/// [`JacobianMethod`]: crate::integrate::JacobianMethod
 /// [`Taylor`]: crate::integrate::Taylor
 macro_rules! with_methods {
     ($macro:ident) => {
@@ -24,16 +24,20 @@ macro_rules! with_methods {
                 /// Dormand and Prince's method of order 8 with estimates of orders 5 and 3; the default.
                 DormandPrince8 "dormand_prince" 8 "" ["dop853", "dopri8", "rk8", "dormand_prince_8", "tsit5"] explicit:
                     Some(RungeKutta(DormandPrince8)) => RungeKutta<DormandPrince8, 12>;
-                /// Rosenbrock's method RODAS, linearly implicit, for stiff scenes.
-                Rosenbrock "rosenbrock" 4 "linearize"
-                    ["rodas", "radau", "bdf", "lsoda", "cvode", "ode15s", "ode23s", "implicit"] implicit:
-                    R::put(Rosenbrock) => R;
                 /// Dormand and Prince's pair of orders 5 and 4.
                 DormandPrince5 "dormand_prince_5" 5 "" ["dopri5", "rk45", "ode45", "rkf45", "dopri"] explicit:
                     Some(RungeKutta(DormandPrince5)) => RungeKutta<DormandPrince5, 7>;
                 /// Verner's pair of orders 9 and 8.
                 Verner9 "verner_9" 9 "" ["vern9", "ode89", "rk9", "vern7"] explicit:
                     Some(RungeKutta(Verner9)) => RungeKutta<Verner9, 16>;
+            }
+            jacobians {
+                /// Rosenbrock's method RODAS, linearly implicit, for stiff scenes.
+                Rosenbrock "rosenbrock" 4 "linearize" ["rodas", "ode23s", "ros4"] implicit: Rosenbrock => Rosenbrock;
+                /// Radau's method IIA of order 5, implicit, for stiff scenes.
+                Radau "radau" 5 "linearize"
+                    ["radau5", "radau_iia", "bdf", "lsoda", "cvode", "ode15s", "implicit", "generalized_alpha"]
+                    implicit: Radau => Radau;
             }
             singles {
                 /// Gauss' collocation of order 6, implicit, symmetric and symplectic.
@@ -132,7 +136,7 @@ impl Method {
     /// Whether its steps are as long as tolerances allow, if so wanted.
     #[must_use]
     pub fn keeps_tolerances(self) -> bool {
-        matches!(self.row().4[0], "pairs" | "series")
+        matches!(self.row().4[0], "pairs" | "jacobians" | "series")
     }
 
     /// Whether its steps are of one length, if so wanted.

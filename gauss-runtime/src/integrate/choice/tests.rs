@@ -7,11 +7,11 @@ use super::control::StepSetting;
 use super::error::{MethodError, UnknownMethod};
 use super::method::Method;
 use super::step::{Absent, MethodStep};
-use crate::integrate::{EstimatingStep, MethodControl, MethodPair, OneStep, Rosenbrock, Taylor};
+use crate::integrate::{EstimatingStep, JacobianMethod, MethodControl, MethodPair, OneStep, Taylor};
 use crate::testing::FreeTop;
 
 type AnyKernelControl = MethodControl<f64>;
-type Full = MethodControl<f64, Rosenbrock, Taylor>;
+type Full = MethodControl<f64, JacobianMethod, Taylor>;
 
 #[test]
 fn names_are_read_as_they_are_written() {
@@ -37,7 +37,7 @@ fn other_names_are_told_of_those_that_there_are() {
         ("DOP853", Method::DormandPrince8),
         ("RK45", Method::DormandPrince5),
         ("rk4", Method::Classical4),
-        ("Radau", Method::Rosenbrock),
+        ("Radau5", Method::Radau),
         ("dormand_price", Method::DormandPrince8),
         ("dormand-prince-5", Method::DormandPrince5),
         ("Verner_9", Method::Verner9),
@@ -51,7 +51,7 @@ fn other_names_are_told_of_those_that_there_are() {
         assert_eq!(nearest(name), None, "{name}");
     }
     let told = UnknownMethod { nearest: Some(Method::Verner9) }.to_string();
-    assert!(told.starts_with("no such method; there are dormand_prince, rosenbrock, "), "{told}");
+    assert!(told.starts_with("no such method; there are dormand_prince, dormand_prince_5, "), "{told}");
     assert!(told.ends_with("taylor; is verner_9 meant?"), "{told}");
     assert!(Method::ALL.iter().all(|method| told.contains(method.name())), "{told}");
 }

@@ -3,3 +3,4 @@
 pub(in crate::integrate) mod checks;
 pub(in crate::integrate) mod iteration;
 pub mod one_step;
+pub(in crate::integrate) mod start;

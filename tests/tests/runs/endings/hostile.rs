@@ -9,7 +9,9 @@ use gauss_batch::{Batch, States};
 use gauss_exact::{FreeFlow, Scheme, Splitting};
 use gauss_runtime::chart::convert;
 use gauss_runtime::configuration::Configuration;
-use gauss_runtime::integrate::{Compensated, Composed, Composition, Control, EnergyMomentum, Fixed, Rkmk, Variational};
+use gauss_runtime::integrate::{
+    Compensated, Composed, Composition, Control, EnergyMomentum, Fixed, Radau, Rkmk, Variational,
+};
 use gauss_runtime::monitor::{monitor, power_balance};
 use gauss_runtime::prelude::*;
 use gauss_tables::Tabulate;
@@ -189,7 +191,7 @@ fn series_and_stiff_methods() {
         swing(n, Taylor::new(a, b));
         swing(n, Taylor::new(1e-6, 1e-6).largest_step(a).of_order(b.abs() as usize));
     });
-    each("Rosenbrock", |n| {
+    each("Rosenbrock and Radau", |n| {
         let [a, b, q, z, start, end, k, c, ..] = n;
         // Parameters that no spring has are refused elsewhere.
         let Ok(kernel) = (Spring { k, c }).kernel() else { return };
@@ -197,6 +199,8 @@ fn series_and_stiff_methods() {
         for (path, error) in [
             run.control(Adaptive::by(Rosenbrock, a, b)).attempt(one(q), one(z), start..end),
             run.control(Fixed::by(Rosenbrock, a)).attempt(one(q), one(z), start..end),
+            run.control(Adaptive::by(Radau, a, b)).attempt(one(q), one(z), start..end),
+            run.control(Fixed::by(Radau, a)).attempt(one(q), one(z), start..end),
             run.adaptive(a, b).attempt(one(q), one(z), start..end),
             run.momentum_form().taylor(a, b).attempt(one(q), one(z), start..end),
         ] {
