@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
 Direction = Literal["any", "rising", "falling"]
-Method = Literal["dormand_prince", "rosenbrock", "dormand_prince_5", "verner_9", "collocation", "collocation_4", "collocation_2", "runge_kutta_4", "commutator_free_4", "adams_10", "adams_12", "taylor"]
+Method = Literal["dormand_prince", "dormand_prince_5", "verner_9", "rosenbrock", "radau", "collocation", "collocation_4", "collocation_2", "runge_kutta_4", "commutator_free_4", "adams_10", "adams_12", "taylor"]
 Function = Callable[[float, Array, Array], Any]
 Input = ArrayLike | tuple[ArrayLike, ArrayLike] | Function
 Contacts = Literal["events", "steps"]

@@ -79,8 +79,8 @@ impl Given {
 #[pymethods]
 impl Kernel {
     /// Carries a state from `interval[0]` to `interval[1]`, by the method of Dormand and Prince of order 8: with steps
-    /// as long as the tolerances allow, or of the length `step`. `method` is another one: "rosenbrock" for stiff
-    /// scenes, "taylor", or "collocation", implicit, with `step`.
+    /// as long as the tolerances allow, or of the length `step`. `method` is another one: "rosenbrock" or
+    /// "radau" for stiff scenes, "taylor", or "collocation", implicit, with `step`.
     ///
     /// `input` is an array, a pair (times, values), straight between them, or a function of (t, q, z). `controller` is
     /// a function of (t, q, z) that is called every `period`; what it gives is held, from `delay` after that on, and

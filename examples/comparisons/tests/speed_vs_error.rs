@@ -8,6 +8,7 @@ use gauss_comparisons::measure::comparison::{LEVELS, Total, Verdict};
 use gauss_comparisons::measure::entry::{Entry, Setting, Side};
 use gauss_comparisons::measure::scene::{Scene, Target};
 use gauss_comparisons::measure::study::{Effort, study};
+use gauss_runtime::integrate::Method;
 
 fn scene(name: &str) -> Scene {
     scenes().unwrap().into_iter().find(|scene| scene.about.name == name).unwrap()
@@ -224,4 +225,18 @@ fn a_study_has_fronts_gains_and_energies() {
     };
     assert!(worst("DP 8, fixed") < 1e-12 && worst("semi-implicit Euler") > 1e-3);
     assert!(found.points.iter().all(|point| point.evaluations > 0 && point.setting > 0.0));
+}
+
+/// With both kinds of steps, by their rows in the table of methods alone.
+#[test]
+fn methods_with_jacobians_are_in_the_report() {
+    let entries = entries(&scene("hlw_heavy_top")).unwrap();
+    let mut methods = 0;
+    for method in Method::ALL.iter().filter(|method| method.clause() == Some("linearize")) {
+        let settings = entries.iter().filter(|entry| entry.method == method.name()).map(|entry| entry.setting);
+        let order = method.order().expect("steps of one length");
+        assert_eq!(settings.collect::<Vec<_>>(), [Setting::Step(order), Setting::Tolerance], "{method}");
+        methods += 1;
+    }
+    assert!(methods >= 2);
 }

@@ -110,7 +110,7 @@ def test_methods_agree(torpedo, pendulum):
     q, z = torpedo.state(pose_z=-5.0)
     z[:] = [1.5, 0, 0, 0.1, 0.2, 0.3]
     ends = {}
-    for method in ["dormand_prince", "taylor", "rosenbrock"]:
+    for method in ["dormand_prince", "taylor", "rosenbrock", "radau"]:
         # A method of order 4 takes short steps: a thousand of them may each lose the tolerance.
         run = torpedo.simulate(q, z, (0, 3), method=method, rtol=1e-9, atol=1e-9)
         ends[method] = np.append(run.q[-1], run.z[-1])
@@ -142,7 +142,8 @@ def test_all_methods_by_name_agree(torpedo):
     for method in ["dormand_prince_5", "verner_9"]:
         run = torpedo.simulate(q, z, (0, 3), method=method, rtol=1e-9, atol=1e-9)
         assert abs(np.append(run.q[-1], run.z[-1]) - exact).max() < 1e-6, method
-    for method in [*OF_ONE_LENGTH, "collocation", "dormand_prince", "dormand_prince_5", "verner_9", "rosenbrock"]:
+    tolerant = ["dormand_prince", "dormand_prince_5", "verner_9", "rosenbrock", "radau"]
+    for method in [*OF_ONE_LENGTH, "collocation", *tolerant]:
         # Of order 2 at least: its error falls to a fourth or less in half of the length.
         of_length = [torpedo.simulate(q, z, (0, 3), method=method, step=step) for step in (0.02, 0.01)]
         assert [run.steps for run in of_length] == [150, 300], method
@@ -157,7 +158,7 @@ def test_mistakes_with_methods(pendulum, arm):
     def run(**given):
         return pendulum.simulate([0.5], [0.0], (0.0, 1.0), input=[0.0], **given)
 
-    with pytest.raises(ValueError, match='"eular" is no such method; there are dormand_prince, rosenbrock, .*, taylor$'):
+    with pytest.raises(ValueError, match='"eular" is no such method; there are dormand_prince, .*, rosenbrock, radau, .*, taylor$'):
         run(method="eular")
     with pytest.raises(ValueError, match='"RK45" is no such method; .*; is dormand_prince_5 meant'):
         run(method="RK45")
@@ -174,8 +175,9 @@ def test_mistakes_with_methods(pendulum, arm):
         run(largest_step=0.0)
     with pytest.raises(ValueError, match=r"taylor needs `#\[gauss\(taylor\)\]` at the struct"):
         run(method="taylor")
-    with pytest.raises(ValueError, match=r"rosenbrock needs `#\[gauss\(linearize\)\]` at the struct"):
-        arm.simulate([0.0, 0.0], [0.0, 0.0], (0, 1), input=[0.0, 0.0], method="rosenbrock")
+    for method in ["rosenbrock", "radau"]:
+        with pytest.raises(ValueError, match=rf"{method} needs `#\[gauss\(linearize\)\]` at the struct"):
+            arm.simulate([0.0, 0.0], [0.0, 0.0], (0, 1), input=[0.0, 0.0], method=method)
 
 
 def test_progress_tells_the_time(pendulum):

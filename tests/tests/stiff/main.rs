@@ -342,3 +342,13 @@ fn adaptive_steps_know_nothing_of_stiffness() {
     check(Rosenbrock);
     check(Radau);
 }
+
+#[test]
+fn a_capsule_in_oil_by_all_methods() {
+    let (inertia, center) = (Vector3::new(1.0, 1.2, 0.8), Vector3::new(0.0, 0.01, -0.02));
+    let kernel = Capsule { m: 1.0, inertia, center, g: 9.81, c: 1e4, k: 1e3 }.kernel().unwrap();
+    let start = (Isometry3::identity(), Vector6::from([0.1, 0.0, 0.0, 0.0, 0.3, 0.0]));
+    for [radau, rosenbrock, explicit] in scenes::compare("capsule in oil", &kernel, start, 10.0) {
+        assert!(radau.steps.max(rosenbrock.steps) * 20 < explicit.steps);
+    }
+}

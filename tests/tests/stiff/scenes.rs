@@ -93,8 +93,8 @@ struct SliderCrank {
 }
 
 /// A run: steps, trials that were rejected, evaluations, linearisations, microseconds, and the error of q at its end.
-struct Figures {
-    steps: u64,
+pub struct Figures {
+    pub steps: u64,
     rejected: u64,
     counts: [u64; 2],
     micros: f64,
@@ -118,7 +118,7 @@ where
 }
 
 /// Runs of a scene by Radau, Rosenbrock and order 8 at some tolerances, which are printed; each keeps its tolerance.
-fn compare<S: LinearizedSystem<Scalar = f64, Input = ()>>(
+pub fn compare<S: LinearizedSystem<Scalar = f64, Input = ()>>(
     what: &str,
     kernel: &S,
     start: Start<S>,
@@ -148,31 +148,31 @@ fn compare<S: LinearizedSystem<Scalar = f64, Input = ()>>(
 
 #[test]
 fn places_that_are_shaken() {
-    for (k, c) in [(1e6, 2e3), (1e8, 2e4)] {
-        let kernel = Shaken { k, c }.kernel().expect("a spring");
-        let all = compare(&format!("shaken, k = {k:e}"), &kernel, ([0.0].into(), [3.0].into()), 5.0);
-        for [radau, rosenbrock, explicit] in all {
-            assert!(5 * radau.steps < rosenbrock.steps && 5 * radau.steps < explicit.steps);
-        }
+    let kernel = Shaken { k: 1e8, c: 2e4 }.kernel().expect("a spring");
+    let all = compare("shaken", &kernel, ([0.0].into(), [3.0].into()), 5.0);
+    for [radau, rosenbrock, explicit] in all {
+        assert!(40 * radau.steps < rosenbrock.steps.min(explicit.steps));
     }
 }
 
 #[test]
 fn rods_that_are_stiff_springs() {
-    for (k, c) in [(1e6, 20.0), (1e6, 2e3), (1e8, 2e4)] {
+    for (k, c) in [(1e6, 20.0), (1e8, 2e4)] {
         let kernel = Penalty { k, c, g: 9.81 }.kernel().expect("a pendulum");
-        compare(&format!("penalty, k = {k:e}, c = {c}"), &kernel, ([1.0, 0.0].into(), [0.3, 0.0].into()), 5.0);
+        let all = compare(&format!("rod as a spring, {k:e}"), &kernel, ([1.0, 0.0].into(), [0.3, 0.0].into()), 5.0);
+        let [radau, rosenbrock, _] = all.last().expect("the smallest tolerance");
+        assert!(5 * radau.steps < rosenbrock.steps && 2 * radau.counts[0] < rosenbrock.counts[0]);
     }
 }
 
 #[test]
 fn cranks_on_stiff_bushings() {
-    for (k, c) in [(1e6, 100.0), (1e7, 1e4)] {
-        let kernel = SliderCrank { k, c, g: 0.0 }.kernel().expect("a crank");
-        let (x, z) = (0.2 * 0.3_f64.cos(), 0.2 * 0.3_f64.sin());
-        let q = SVector::from([0.3, x, z, x + (0.36 - z * z).sqrt()]);
-        compare(&format!("crank, k = {k:e}, c = {c}"), &kernel, (q, SVector::zeros()), 2.0);
-    }
+    let kernel = SliderCrank { k: 1e7, c: 1e4, g: 0.0 }.kernel().expect("a crank");
+    let (x, z) = (0.2 * 0.3_f64.cos(), 0.2 * 0.3_f64.sin());
+    let q = SVector::from([0.3, x, z, x + (0.36 - z * z).sqrt()]);
+    let all = compare("crank on a bushing", &kernel, (q, SVector::zeros()), 2.0);
+    let [radau, rosenbrock, explicit] = all.last().expect("the smallest tolerance");
+    assert!(20 * radau.steps < rosenbrock.steps.min(explicit.steps));
 }
 
 /// Errors after 2 s of steps of a tenth of a second, and of half the length time and again: all a hundred times as long

@@ -37,7 +37,7 @@ macro_rules! with_methods {
                 /// Radau's method IIA of order 5, implicit, for stiff scenes.
                 Radau "radau" 5 "linearize"
                     ["radau5", "radau_iia", "bdf", "lsoda", "cvode", "ode15s", "implicit", "generalized_alpha"]
-                    implicit: Radau => Radau;
+                    implicit: crate::integrate::Radau => crate::integrate::Radau;
             }
             singles {
                 /// Gauss' collocation of order 6, implicit, symmetric and symplectic.

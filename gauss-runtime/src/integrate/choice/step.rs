@@ -6,7 +6,6 @@ use crate::integrate::lie_group::commutator_free::CommutatorFree4;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::IntegrationErrorKind;
 use crate::integrate::problem::state::{Rates, State};
-use crate::integrate::radau::Radau;
 use crate::integrate::rosenbrock::Rosenbrock;
 use crate::integrate::runge_kutta::components::RungeKutta;
 use crate::integrate::runge_kutta::tableau::{Classical4, DormandPrince5, DormandPrince8, Verner9};
