@@ -6,8 +6,8 @@ use std::cell::Cell;
 
 use gauss_runtime::prelude::*;
 
-/// A kernel and a count of its accelerations, rates of momentum, linearisations and series. Runs that are timed count too, as those of
-/// the baselines do: it is one addition an evaluation.
+/// A kernel and a count of its accelerations, rates of momentum, linearisations and series. Runs that are timed count
+/// too, as those of the baselines do: it is one addition an evaluation.
 #[derive(Clone)]
 pub struct Counted<S> {
     kernel: S,

@@ -1,5 +1,5 @@
-//! Methods with Jacobians on kernels: their orders in every kind of scene, what they do where scenes are stiff, and what
-//! they refuse.
+//! Methods with Jacobians on kernels: their orders in every kind of scene, what they do where scenes are stiff, and
+//! what they refuse.
 
 mod scenes;
 

@@ -179,7 +179,7 @@ fn cranks_on_stiff_bushings() {
 /// as the spring's own motion.
 fn halving(method: impl OneStep<ShakenKernel> + Copy) -> [f64; 4] {
     let kernel = Shaken { k: 1e8, c: 2e4 }.kernel().expect("a spring");
-    // ẍ + 2·10⁴ ẋ + 10⁸ x = 2·10⁴ · 3 cos 3t + 10⁸ sin 3t, of which the motion that does not decay is s sin 3t + c cos 3t.
+    // ẍ + 2·10⁴ ẋ + 10⁸ x = 2·10⁴ · 3 cos 3t + 10⁸ sin 3t: the motion that does not decay is s sin 3t + c cos 3t.
     let (a, b, d) = (1e8 - 9.0, 6e4, 6e4 * 6e4);
     let (sine, cosine) = ((a * 1e8 + d) / (a * a + d), (a * b - b * 1e8) / (a * a + d));
     let motion = |t: f64| {

@@ -5,8 +5,8 @@
 //! those of the model's own numbers ([`System::share`]).
 
 use gauss_jit::{Kernel, MixedConfiguration, System, SystemWithContacts};
-use gauss_runtime::integrate::{Absent, NoTaylor, StepSetting};
-use gauss_runtime::prelude::{Configuration, GaussSystem, Rosenbrock, SVector};
+use gauss_runtime::integrate::{Absent, JacobianMethod, NoTaylor, StepSetting};
+use gauss_runtime::prelude::{Configuration, GaussSystem, SVector};
 
 use crate::methods::Sizes;
 use crate::steps::{

@@ -34,8 +34,8 @@ pub struct Methods<S> {
 }
 
 impl<S: System<Scalar = f64>> Methods<S> {
-    /// Runs without contacts: `R` and `P` are [`JacobianMethod`] and [`Taylor`] where the system has what these need, as
-    /// the words in `steps` of [`scene!`](crate::scene) say.
+    /// Runs without contacts: `R` and `P` are [`JacobianMethod`] and [`Taylor`] where the system has what these need,
+    /// as the words in `steps` of [`scene!`](crate::scene) say.
     #[must_use]
     pub fn new<R, P>() -> Self
     where

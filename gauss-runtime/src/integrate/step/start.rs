@@ -5,7 +5,6 @@
 //! dexp⁻¹: ½ [·, V].
 
 use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::drive::step_length::power;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State, TangentOf};
@@ -164,7 +163,7 @@ fn feedback<S: LinearizedSystem, P: Problem<System = S>>(
             None => start.q.magnitude(column),
             Some(k) => (0..S::Scalar::LANES).map(|lane| start.z.component(k).lane(lane).abs()).fold(0.0, f64::max),
         };
-        let distance = power(S::Scalar::EPSILON, 1.0 / 3.0) * size.max(1.0);
+        let distance = Real::exp(Real::ln(S::Scalar::EPSILON) * (1.0 / 3.0)) * size.max(1.0);
         let difference = input(column, distance).add_scaled(-S::Scalar::one(), &input(column, -distance));
         difference.scale(S::Scalar::from_f64(0.5 / distance))
     };
