@@ -29,8 +29,8 @@
 //!
 //! Limits: flights lower than some hundred roundings of the largest coordinate are rest, or an error where e = 1. No
 //! first touch is missed, however long the steps: the rate of a gap is bounded by kinetic energy. Where that is not
-//! enough, as for gaps that depend on the time, or of bodies that turn some thousand times within a step, whose tips may
-//! be met some turns late, the run says so ([`ContactTrajectory::sampled_gaps`]). A gap that is found below zero all the
+//! enough, as for gaps that depend on the time, or of bodies that turn some thousand times in a step, whose tips may be
+//! met some turns late, the run says so ([`ContactTrajectory::sampled_gaps`]). A gap that is found below zero all the
 //! same ends it with [`ContactErrorKind::Penetration`].
 //!
 //! Scalars are any of one lane. Values decide what happens; where numbers carry derivatives, so do times of events,

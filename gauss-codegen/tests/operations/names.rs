@@ -1,5 +1,5 @@
-//! Names say nothing of the motion: every scene that is written out has the same code, token for token, whatever the order of
-//! its names.
+//! Names say nothing of the motion: every scene that is written out has the same code, token for token, whatever the
+//! order of its names.
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Mutex;

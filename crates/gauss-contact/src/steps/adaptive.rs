@@ -66,8 +66,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
     /// by what it does in such a time.
     ///
     /// An input is held during half of a step, as it is at the start of that; where it changes with time or state, that
-    /// is of first order, and steps are as short as it asks for. It is looked at eight times in a step, as forces of the
-    /// scene that depend on the time are: a push that is shorter than an eighth of the longest step may be missed.
+    /// is of first order, and steps are as short as it asks for. It is looked at eight times in a step, as forces are
+    /// of the scene that depend on the time: a push that is shorter than an eighth of the longest step may be missed.
     pub fn adaptive(self, relative: f64, absolute: f64) -> AdaptiveContactSteps<'k, K, I, E> {
         let (shortest, limit) = (SHORTEST * self.h, self.limit.unwrap_or(MOST_STEPS));
         AdaptiveContactSteps { steps: self, relative, absolute, shortest, limit }

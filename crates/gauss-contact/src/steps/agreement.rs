@@ -9,10 +9,9 @@
 //! [`ALONE`]; where they do not, speeds settle to [`TIGHT`]: nothing is lost or given then but by the order of the
 //! method, for any length of run. A step flies where no contact acts, whether or not gaps were looked at: feet that lie
 //! on zero, or above it by a rounding, and press nothing are to make one step, or a run is no smooth function of its
-//! inputs. A speed that is zero but for rounding has no digits of its own: where it
-//! comes no nearer, it is judged by what the energy of all that moves would make of it. Beside contacts a step is
-//! solved anew each time, and joints pass through zero: there sizes have a part of the largest speed, in whatever unit,
-//! and what they may be off by is more.
+//! inputs. A speed that is zero but for rounding has no digits of its own: where it comes no nearer, it is judged by
+//! what the energy of all that moves would make of it. Beside contacts a step is solved anew each time, and joints pass
+//! through zero: there sizes have a part of the largest speed, in whatever unit, and what they may be off by is more.
 
 use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::ContactSystem;

@@ -4,9 +4,9 @@
 //! time, it stays above zero in that part if f₀ + f₁ > L h. Else the part is halved, on the curve of the step, up to
 //! seven times; near zero the curve is replaced by states that the method itself reaches. In what is left, some
 //! thousandths of a step next to zero, the slopes at its ends decide, where those within it are of the cubic that the
-//! ends make; else it is halved again, and named where that is given up. At an eighth of a step they decide already where
-//! the function is a parabola there, as the gaps of what bounces low are: else each of its bounces would be a hundred
-//! steps.
+//! ends make; else it is halved again, and named where that is given up. At an eighth of a step they decide already
+//! where the function is a parabola there, as the gaps of what bounces low are: else each of its bounces would be a
+//! hundred steps.
 
 use crate::integrate::drive::control::Control;
 use crate::integrate::drive::cubic::StepCubic;
@@ -157,9 +157,10 @@ where
         Ok(off.max(off_middle) <= plain && self.most.is_finite())
     }
 
-    /// Whether slopes within a part are those of a cubic, to a sixteenth of them: those at two places are of the parabola
-    /// through three others. Those at the ends alone agree by chance where turns are between them, as one in two do. The
-    /// change of the function has no part in it: on the curve of a step it is off by more than that of a low flight is.
+    /// Whether slopes within a part are those of a cubic, to a sixteenth of them: those at two places are of the
+    /// parabola through three others. Those at the ends alone agree by chance where turns are between them, as one in
+    /// two do. The change of the function has no part in it: on the curve of a step that is off by more than it is in a
+    /// low flight.
     fn is_cubic(&mut self, (from, width): Point, [leaves, comes]: [f64; 2]) -> Result<bool, IntegrationErrorKind> {
         let [early, middle, late] = WITHIN.map(|s| (self.curve)(from + s * width).map(|[_, slope]| width * slope));
         let (early, middle, late) = (early?, middle?, late?);
