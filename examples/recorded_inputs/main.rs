@@ -1,7 +1,7 @@
 //! A vehicle driven by inputs from a log: `examples/data/recorded_inputs.csv`, made up to look like one, or a file of
 //! yours.
 //!
-//! `cargo run --release --example recorded_inputs [-- FILE.csv [FOLDER]]` draws into `FOLDER`, by default
+//! `cargo run --release --example recorded_inputs [-- FOLDER [FILE.csv]]` draws into `FOLDER`, by default
 //! `target/gauss`.
 
 use std::env;
@@ -28,8 +28,8 @@ use recording::{Recording, Row};
 const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/data/recorded_inputs.csv");
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let file = env::args_os().nth(1).map_or_else(|| PathBuf::from(FILE), PathBuf::from);
-    let folder = env::args_os().nth(2).map_or_else(gauss_files::output_folder, PathBuf::from);
+    let folder = gauss_files::output_folder_or_argument();
+    let file = env::args_os().nth(2).map_or_else(|| PathBuf::from(FILE), PathBuf::from);
     let recording = Recording::read(File::open(&file)?).map_err(|error| format!("{}, {error}", file.display()))?;
     let rows = recording.rows();
     let (from, to) = (rows[0].time, rows[rows.len() - 1].time);

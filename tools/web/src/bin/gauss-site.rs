@@ -56,7 +56,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         for example in &section.examples {
             let own = folder.join("examples").join(&example.name);
             let kind = if example.name == "gauss-first" { "--bin" } else { "--example" };
-            run(cargo(&root).args(["run", "--quiet", "--workspace", kind, &example.name, "--"]).arg(own))?;
+            run(cargo(&root).args(["run", "--quiet", kind, &example.name, "--"]).arg(own))?;
         }
     }
 
