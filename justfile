@@ -41,6 +41,10 @@ mutants count="1000000" first="0":
     MUTATIONS={{count}} FIRST={{first}} nice -n 19 cargo test --release --target-dir target/mutants \
         -p gauss-codegen --features urdf,mjcf --test mutations no_input_is_too_much -- --nocapture
 
+# The energy of runs with contacts that are drawn at random, between samples, beyond those of the tests.
+throws count="1000" first="80":
+    THROWS={{count}} FIRST={{first}} nice -n 19 cargo test --workspace --test laws accounted -- --nocapture
+
 # Features of the published crates, in a clone: `cargo install --locked cargo-hack` once.
 features:
     rm -rf target/features && git clone --quiet . target/features
