@@ -25,23 +25,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     for (name, die) in &dice {
         let clock = Instant::now();
         let kernel = die.kernel()?;
-        let (mut throws, mut refused) = (Vec::new(), Vec::new());
-        for (number, thrown) in numbers.map(|sample| throw(&kernel, sample)).into_iter().enumerate() {
-            match thrown {
-                Ok(throw) => throws.push(throw),
-                Err(error) => refused.push(format!("die {number} has no end: {error}")),
-            }
-        }
-        // A step that has no forces is an error and no guess; more than a few of them are a mistake.
-        if let Some(error) = refused.first().filter(|_| 1000 * refused.len() > count) {
-            return Err(error.as_str().into());
-        }
+        let throws = numbers.map(|sample| throw(&kernel, sample)).into_iter().collect::<Result<Vec<_>, _>>()?;
         let faces = faces(&throws);
         println!("{count} {name} dice in {:.1} s, {} steps:", clock.elapsed().as_secs_f64(), steps(&throws));
         println!("  faces 1 to 6: {faces:?}; χ² of even faces {:.2}, of 5 degrees of freedom", chi_square(&faces));
         let off = throws.iter().filter(|throw| throw.face.is_none()).count();
         println!("  {off} lie on no face, {} still move after 4 s", moving(&throws));
-        refused.iter().for_each(|error| println!("  {error}"));
         println!("  residuals up to {:.0e} m/s, gaps down to {:.0e} m\n", residual(&throws), lowest(&throws));
         found.push((*name, faces));
     }

@@ -17,7 +17,6 @@
 mod account;
 mod active;
 mod adaptive;
-mod agreement;
 mod bounds;
 mod cones;
 mod derivatives;
