@@ -1,6 +1,7 @@
 //! Methods with Jacobians on kernels: their orders in every kind of scene, what they do where scenes are stiff, and
 //! what they refuse.
 
+mod derivatives;
 mod scenes;
 
 use std::f64::consts::PI;
