@@ -224,27 +224,26 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> AdaptiveContactSteps<'k, K, I, E>
         I: InputSource<K>,
     {
         let (t, q, z, kernel) = (stepper.t, &stepper.q, &stepper.z, stepper.kernel);
+        let mut sum = K::Speeds::zero();
+        // Then nothing depends on the time, and there is no input.
+        if kernel.keeps_energy() {
+            return sum;
+        }
         let (looks, part) = (LOOKS.map(|part| t + 0.5 * h * part), 0.5 * h / LOOKS.len() as f64);
+        let mut add = |off: K::Speeds| {
+            (0..K::Speeds::DIM).for_each(|i| sum.set_component(i, sum.component(i) + part * off.component(i).abs()));
+        };
         let input = |at: f64| self.steps.input.input(at, q, z);
         let held = input(t);
-        let add = |sum: K::Speeds, off: &K::Speeds| {
-            let mut sum = sum;
-            (0..K::Speeds::DIM).for_each(|i| sum.set_component(i, sum.component(i) + part * off.component(i).abs()));
-            sum
-        };
-        let mut sum = K::Speeds::zero();
+        let [a, b, c, d] = looks.map(|at| kernel.acceleration(at, q, z, &held));
         if size_of::<K::Input>() > 0 {
-            let at_start = kernel.acceleration(t, q, z, &held).scale(-1.0);
-            sum = looks
-                .iter()
-                .fold(sum, |sum, at| add(sum, &at_start.add_scaled(1.0, &kernel.acceleration(t, q, z, &input(*at)))));
+            for (at, forces) in looks.into_iter().zip([&a, &b, &c, &d]) {
+                add(kernel.acceleration(at, q, z, &input(at)).add_scaled(-1.0, forces));
+            }
         }
-        if !kernel.keeps_energy() {
-            // By the trapezoidal rule, which is of the order of a step.
-            let [a, b, c, d] = looks.map(|at| kernel.acceleration(at, q, z, &held));
-            let ends = kernel.acceleration(t, q, z, &held).add_scaled(1.0, &d).scale(0.5);
-            sum = add(sum, &ends.add_scaled(1.0, &a).add_scaled(-3.0, &b).add_scaled(1.0, &c));
-        }
+        // By the trapezoidal rule, which is of the order of a step.
+        let ends = kernel.acceleration(t, q, z, &held).add_scaled(1.0, &d).scale(0.5);
+        add(ends.add_scaled(1.0, &a).add_scaled(-3.0, &b).add_scaled(1.0, &c));
         sum
     }
 

@@ -76,6 +76,7 @@ pub struct JointScene {
     pub tree: JointTree,
     pub masses: Vec<MassData>,
     pub parts: Parts,
+    format: &'static str,
 }
 
 impl JointScene {
@@ -118,7 +119,16 @@ impl JointScene {
         }
         parts.lost.extend(model.description().remarks.iter().filter(|own| own.ignored).map(|own| own.text.clone()));
         Contacts::new(&scene, &tree, &mut parts).add();
-        Ok(Self { scene, tree, masses, parts })
+        Ok(Self { scene, tree, masses, parts, format })
+    }
+
+    /// A text of the format with what it has lost.
+    ///
+    /// # Errors
+    /// All that has no counterpart.
+    pub fn finished(self, text: String) -> Result<(String, Vec<String>), DocumentError> {
+        let Parts { mistakes: list, lost, .. } = self.parts;
+        if list.is_empty() { Ok((text, lost)) } else { Err(DocumentError::NoCounterpart { format: self.format, list }) }
     }
 
     /// Whether places of bodies, what acts or what touches depends on the time, be it anywhere.

@@ -30,8 +30,7 @@ impl Mjcf {
     /// constraints, fluids, modes, states of elements, loads that are not linear, tables, contacts other than those of
     /// spheres with planes and with each other.
     pub fn new(source: &str, parameters: &[(&str, &[f64])]) -> Result<Self, DocumentError> {
-        const FORMAT: &str = "MJCF";
-        let mut own = JointScene::new(source, parameters, FORMAT)?;
+        let mut own = JointScene::new(source, parameters, "MJCF")?;
         let acting = std::mem::take(&mut own.parts.acting);
         own.parts.mistakes.extend(acting);
         if own.parts.mistakes.is_empty() && own.reads_time() {
@@ -39,11 +38,8 @@ impl Mjcf {
         }
         lose_softness(&mut own);
         let text = MjcfDocument::new(&mut own).written();
-        if own.parts.mistakes.is_empty() {
-            Ok(Self { text, lost: own.parts.lost })
-        } else {
-            Err(DocumentError::NoCounterpart { format: FORMAT, list: own.parts.mistakes })
-        }
+        let (text, lost) = own.finished(text)?;
+        Ok(Self { text, lost })
     }
 
     /// The document.

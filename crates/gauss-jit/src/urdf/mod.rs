@@ -26,18 +26,14 @@ impl Urdf {
     /// Mistakes of the scene and of its parameters; motions and masses without a counterpart: poses that are no
     /// products of joints, ball joints, constraints, fluids, modes, states of elements, tables.
     pub fn new(source: &str, parameters: &[(&str, &[f64])]) -> Result<Self, DocumentError> {
-        const FORMAT: &str = "URDF";
-        let mut own = JointScene::new(source, parameters, FORMAT)?;
+        let mut own = JointScene::new(source, parameters, "URDF")?;
         if !own.parts.closures.is_empty() {
             own.parts.mistakes.push("loops (`constraint`) are none of a tree of links".to_owned());
         }
         lose_loads(&mut own);
         let text = UrdfDocument::new(&mut own).written();
-        if own.parts.mistakes.is_empty() {
-            Ok(Self { text, lost: own.parts.lost })
-        } else {
-            Err(DocumentError::NoCounterpart { format: FORMAT, list: own.parts.mistakes })
-        }
+        let (text, lost) = own.finished(text)?;
+        Ok(Self { text, lost })
     }
 
     /// The document.

@@ -26,6 +26,7 @@ pub fn read(role: Role, clause: &Clause, list: &mut Vec<RoleClause>, context: &m
         _ => "2.0",
     };
     let Some(tokens) = arguments::equals(clause, example, context) else { return };
+    let mistakes = context.count();
     let value = match role {
         Role::AddedMass => {
             arithmetic::read_coefficients(word, "an added mass is", tokens, context).map(RoleValue::Coefficients)
@@ -37,7 +38,7 @@ pub fn read(role: Role, clause: &Clause, list: &mut Vec<RoleClause>, context: &m
     };
     // A body whose mass data were misread has them: that is told once.
     let one = ExpressionKind::Number { value: Rational::one(), twin: None };
-    let misread = matches!(role, Role::Mass | Role::Inertia | Role::CentralInertia);
+    let misread = matches!(role, Role::Mass | Role::Inertia | Role::CentralInertia) && context.count() > mistakes;
     let stand_in = || RoleValue::Expression(Expression { kind: one, span: clause.name.span() });
     if let Some(value) = value.or_else(|| misread.then(stand_in)) {
         add(RoleClause { role, shape: Shape::Other, value, span: clause.name.span() }, list, context);
