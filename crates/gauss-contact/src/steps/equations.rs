@@ -89,7 +89,7 @@ impl<T: Real> Impulses<'_, T> {
     }
 
     pub(super) fn pull(&self) -> f64 {
-        if self.dependent { self.pull } else { 0.0 }
+        if self.dependent { self.pull.part() } else { 0.0 }
     }
 
     /// The equation of a rate that is zero, in rows of some length.

@@ -20,15 +20,9 @@ use crate::residual::Residual;
 
 use super::cones::Cone;
 use super::linear::{Place, dot, dot_and_size, solve, solve_symmetric, stride};
+use super::pull::{Drift, Pull};
 use super::unknowns::{State, UnknownsIn};
 
-/// Part of the diagonal by which impulses are pulled towards those before at first, where contacts depend on one
-/// another. What cannot stick all at once, as two corners that an impact parts, or cannot all stay closed, drifts to
-/// the bound of its friction or to zero by the inverse of that; corrections that gain nothing pull less, those that go
-/// too far more.
-pub(super) const PULL: f64 = 1e-5;
-const LEAST_PULL: f64 = 1e-9;
-const MOST_PULL: f64 = 1e-3;
 /// Residual that is looked for at first, as a part of the tolerance.
 pub(super) const STRICT: f64 = 1e-4;
 /// Corrections of a round.
@@ -86,7 +80,7 @@ pub(crate) struct Impulses<'m, T = f64> {
     pub(crate) dependent: bool,
     /// Whether the law is the convex relaxation of Coulomb's.
     pub(crate) relaxed: bool,
-    pub(super) pull: f64,
+    pub(super) pull: Pull,
     /// Whether the factors are those of a symmetric matrix.
     pub(super) symmetric: bool,
     pub(crate) lockstep: Lockstep,
@@ -130,7 +124,7 @@ impl<'m, T: Real> Impulses<'m, T> {
             extents,
             dependent: false,
             relaxed: false,
-            pull: 0.0,
+            pull: Pull::new(Drift::Short),
             symmetric: false,
             lockstep: Lockstep::default(),
         }
@@ -293,7 +287,7 @@ impl<'m, T: Real> Impulses<'m, T> {
     pub(crate) fn solve_in_lockstep(&mut self, cones: &[Cone<T>], tolerance: f64) -> Option<Found<T>> {
         let mut found = Found::none();
         found.holds = !self.begin(cones);
-        self.pull = PULL;
+        self.pull = Pull::new(Drift::Short);
         let solved = found.holds || self.correct(cones, STRICT * tolerance, &mut found);
         (solved && !self.lockstep.has_parted()).then_some(found)
     }
@@ -355,13 +349,8 @@ impl<'m, T: Real> Impulses<'m, T> {
             if !is_finite || (n > 12 && !self.dependent) || self.lockstep.has_parted() {
                 return false;
             }
-            let pull = self.pull;
-            if self.lockstep.less(T::from_f64(3.0) * before, size) {
-                self.pull = (10.0 * pull).min(MOST_PULL);
-            } else if self.lockstep.less(T::from_f64(0.3) * before, size) {
-                self.pull = (0.1 * pull).max(LEAST_PULL);
-            }
-            changed = self.dependent && self.pull != pull;
+            let [grows, stalls] = [3.0, 0.3].map(|part| self.lockstep.less(T::from_f64(part) * before, size));
+            changed = self.pull.follow(grows, stalls) && self.dependent;
             before = size;
         }
         false

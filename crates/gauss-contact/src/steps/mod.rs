@@ -39,6 +39,7 @@ mod outcome;
 mod passing;
 mod posed;
 mod projection;
+mod pull;
 mod reach;
 mod relaxed;
 mod report;

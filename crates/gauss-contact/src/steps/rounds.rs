@@ -1,7 +1,8 @@
 //! Rounds of sweeps and corrections: how impulses of one system are found where corrections alone come to no end.
 
 use super::cones::Cone;
-use super::impulses::{Found, Impulses, PULL, STRICT, norm};
+use super::impulses::{Found, Impulses, STRICT, norm};
+use super::pull::{Drift, Pull};
 
 /// Rounds of sweeps and corrections.
 const ROUNDS: u32 = 11;
@@ -61,7 +62,7 @@ impl Impulses<'_> {
                 self.swept.copy_from_slice(self.impulses);
                 self.update(cones);
             }
-            self.pull = PULL;
+            self.pull = Pull::new(if round % 2 == 0 && round > 0 { Drift::Long } else { Drift::Short });
             if self.correct(cones, STRICT * tolerance, &mut found) {
                 return found;
             }
