@@ -78,7 +78,8 @@ pub(super) fn part<const N: usize, L: ContactSystem<Scalar = Dual<N>>>(
     };
     let mut middle = if part.by_mean { to_mean(foreseen, foreseen) } else { plain(foreseen) };
     let next = |rule: Rule, (way, used): (L::Speeds, L::Speeds), (q, after): &(L::Configuration, L::Speeds)| {
-        let wanted = rule.mean.of(kernel, (t, h), [(&state.q, &z), (q, after)], input);
+        let before = || kernel.acceleration(t, &state.q, &z, input);
+        let wanted = rule.mean.of(kernel, (t, h), (&z, before), (q, after), input);
         let way = motion::towards(&way, &motion::mean(&z, after), rule.part);
         let used = motion::towards(&used, &wanted, rule.part);
         if rule.at_mean_place { to_mean(way, used) } else { plain(used) }

@@ -215,11 +215,12 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
             let is_smooth = stepper.last.may_stiffen(&used) == Some(false) && !used.is_rough() && !made.end.struck;
             let input_of_lane = || input.extract(lane);
             let agrees = if is_smooth {
-                used.is_plain() || {
+                let flies = made.end.flies();
+                used.is_plain(flies) || {
                     let mean = motion::mean(step.z, &end.z);
                     let at_mean =
                         at_mean.get_or_insert_with(|| self.wide.acceleration(middle.t, &middle.q, &mean, input));
-                    !used.grows(&single::<W, _, K::Speeds>(at_mean, lane))
+                    stepper.holds_at_mean(&used, flies, &single::<W, _, K::Speeds>(at_mean, lane))
                 }
             } else {
                 stepper.is_taken(h, (&middle_of::<W, K>(middle, lane), &made), &input_of_lane())

@@ -17,6 +17,7 @@
 mod account;
 mod active;
 mod adaptive;
+mod agreement;
 mod bounds;
 mod cones;
 mod derivatives;

@@ -55,12 +55,14 @@ pub(super) enum Mean {
 }
 
 impl Mean {
-    /// The mean speeds of a step from places and speeds at its start and its end.
+    /// The mean speeds of a step from speeds at its start, with what gives the acceleration there, and from the state
+    /// at its end.
     pub(super) fn of<K: ContactSystem>(
         self,
         kernel: &K,
         (t, h): (K::Scalar, f64),
-        [(q, z), (q_after, z_after)]: [(&K::Configuration, &K::Speeds); 2],
+        (z, before): (&K::Speeds, impl FnOnce() -> K::Speeds),
+        (q_after, z_after): (&K::Configuration, &K::Speeds),
         input: &K::Input,
     ) -> K::Speeds {
         let number = K::Scalar::from_f64;
@@ -68,7 +70,7 @@ impl Mean {
         if self == Self::Ends {
             return mean;
         }
-        let before = kernel.acceleration(t, q, z, input);
+        let before = before();
         let after = kernel.acceleration(t + number(h), q_after, z_after, input);
         mean.add_scaled(number(h / 12.0), &before).add_scaled(number(-h / 12.0), &after)
     }

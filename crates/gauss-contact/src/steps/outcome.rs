@@ -49,6 +49,12 @@ pub(super) struct End<K: ContactSystem> {
 }
 
 impl<K: ContactSystem> End<K> {
+    /// Whether no contact acts. Gaps of zero may be such by rounding alone, and be looked at or not: where they press
+    /// nothing that is to be the same step.
+    pub(super) fn flies(&self) -> bool {
+        self.report.closed == 0
+    }
+
     /// The attempt at this end, with the modes of the contacts.
     pub(super) fn attempted<'a>(&'a self, modes: &'a [Mode]) -> Attempted<'a, K> {
         let Self { impulses, rests, left, opened, dependent, struck, .. } = self;

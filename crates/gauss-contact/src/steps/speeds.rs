@@ -8,13 +8,16 @@
 //! turns by ωh. Steps without a memory are made three times instead: from speeds that the acceleration without contacts
 //! foresees, and then twice from the mean ones; of what turns by x = ωh a step then takes away x⁶/32, and gives none.
 //!
-//! So a step looks back. Where the speeds that were used are the mean ones to a part `NEAR`, or forces at the mean
-//! ones would not change a speed by more than a part [`ALLOWED`] of it, it is taken as it is: what is left is a growth
-//! by at most that part, of a body that turns of its power 4/3: 10⁻⁸. What dampers differ by shrinks by itself as long
-//! as it is smaller than the difference of the speeds. Else the step is made again from the end that it had, until
-//! speeds agree; where it is too long for that, it is made in parts, and refused in the end: so this check is the watch
-//! over the energy of a step, since forces at the mean speeds do the work that they should. Where springs are stiff it
-//! takes them at the mean place as well (`stiffness`).
+//! So a step looks back (`agreement`). In flight forces at the mean speeds are to do what those did that were taken:
+//! what does not depend on speeds pays nothing for that. Beside contacts, where a step
+//! costs more, speeds may differ by a part of themselves, or by what would not change one by more than a part
+//! [`ALLOWED`] of it: what is left is a growth by at most that part, of a body that turns of its power 4/3: 10⁻⁸. What
+//! dampers differ by there shrinks by itself as long as it is smaller than the difference of the speeds. Else the step
+//! is made again from the end that it had, until speeds agree; where it is too long for that, it is made in parts, and
+//! refused in the end: so this check is the watch over the energy of a step, since forces at the mean speeds do the
+//! work that they should. Forces that are not linear may agree with speeds to which no motion leads: how much they
+//! change between those of the first attempt and the last tells. Where springs are stiff a step takes them at the mean
+//! place as well (`stiffness`).
 //!
 //! A step that is made again uses `z̄ − h/12 (a⁺ − a⁻)` with the accelerations at both ends, which is the mean over
 //! time to fourth order: where a body spins evenly, h ω errs by (ωh)⁵/720, in place of (ωh)³/12, by which a ball in the
@@ -22,27 +25,23 @@
 
 use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::ContactSystem;
-use gauss_runtime::real::Real;
 
 use crate::error::{ContactError, ContactErrorKind};
 
+use super::agreement::{ALLOWED, Attempts};
 use super::motion::{self, Mean, Middle, Rule};
-use super::outcome::{Attempt, End, Refused, has_no_end};
+use super::outcome::{Attempt, Refused, has_no_end};
 use super::report::{StepReport, StepScheme};
 use super::stepper::ContactStepper;
-use super::used::{ALLOWED, Used};
+use super::used::{PART, Used};
 use super::watch::Watch;
 
-/// The same where a step is made again.
-const SETTLED: f64 = 1e-9;
-/// The part of a speed by which those at which forces were taken may differ from the mean ones then.
-const NEARLY: f64 = 3e-8;
 /// The part of a speed that may be left of a difference in a step that has no other end: where it cannot be shorter and
 /// contacts do one thing at some speeds and another one at those that follow from it, or where no impulses are found at
 /// these. It comes once, and not from step to step.
 const MILD: f64 = 1e-2;
 /// The number of times a step is made again, at most.
-const CORRECTIONS: usize = 24;
+const CORRECTIONS: usize = 48;
 /// Part of the first difference above which the second one has a step made in parts: where a body turns by a fifth of a
 /// radian in it, so that places err by its square over 24, or a speed is damped by a fifth.
 const STIFF: f64 = 0.1;
@@ -58,36 +57,8 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// The least part of a difference by which speeds are changed.
 const LEAST_PART: f64 = 0.02;
 
-/// The differences of speeds at half of a step to others: of those at which forces are taken, and of those that lead to
-/// the place where they are.
-type Off<V> = [V; 2];
-
 /// A step that was made again, and what it would be refused for.
 type Corrected<K> = (Middle<K>, Attempt<K>, Option<ContactError>);
-
-/// The largest component, and its place.
-fn largest<V: VectorSpace<f64>>(off: &Off<V>) -> (f64, usize) {
-    let larger = |worst: (f64, usize), (off, i): (f64, usize)| if off > worst.0 { (off, i) } else { worst };
-    off.iter().flat_map(|off| (0..V::DIM).map(|i| (off.component(i).abs(), i))).fold((0.0, 0), larger)
-}
-
-fn product<V: VectorSpace<f64>>(a: &Off<V>, b: &Off<V>) -> f64 {
-    let each = a.iter().zip(b).flat_map(|(a, b)| (0..V::DIM).map(|i| a.component(i) * b.component(i)));
-    each.sum()
-}
-
-/// Whether a difference is against the one before, as of a speed that is damped; where a body turns they are across.
-fn opposes<V: VectorSpace<f64>>(before: &Off<V>, after: &Off<V>) -> bool {
-    product(before, after) < -0.7 * Real::sqrt(product(before, before) * product(after, after))
-}
-
-/// Part of a difference by which speeds are changed next, from the part before and the differences before and after it
-/// (A. C. Aitken; B. Irons & R. Tuck 1969): of one linear force that is all that is left, whatever its sign.
-fn relaxation<V: VectorSpace<f64>>(part: f64, before: &Off<V>, after: &Off<V>) -> f64 {
-    let change = core::array::from_fn(|k| after[k].add_scaled(-1.0, &before[k]));
-    let next = -part * product(before, &change) / product(&change, &change);
-    if next.is_finite() { next.clamp(LEAST_PART, 1.0) } else { 1.0 }
-}
 
 impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
     /// A step that is not made in parts. `last`: whether parts would not be shorter; `accounts`: whether its impacts
@@ -115,7 +86,8 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
             let at_place = middle.is_mean.then(|| self.to_mean(h, &middle, mean, mean));
             let mean = at_place.unwrap_or(Middle { z: mean, ..middle });
             let at_mean = self.kernel.acceleration(mean.t, &mean.q, &mean.z, input);
-            let is_mild = self.used(h, &middle, &made).is_within(MILD, [&made.acceleration, &at_mean]);
+            let used = self.used(h, &middle, &made);
+            let is_mild = !made.end.flies() && used.is_within(MILD, [&made.acceleration, &at_mean]);
             (middle, made, doubt) = match self.corrected(h, (middle, made), input, (watch, last)) {
                 // What has a solution as it was foreseen is no error for having none with forces that hardly differ.
                 Err(cause) if is_mild && (last || has_no_end(&cause)) => {
@@ -156,6 +128,21 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
     /// The error of forces that change a speed more than a step can follow.
     fn too_stiff(&self, h: f64, speed: usize) -> ContactError {
         self.error(None, ContactErrorKind::Stiff { speed, step: h })
+    }
+
+    /// The error of a step that has no end in parts of some length: that of its forces, where these change speeds that
+    /// lead to its places more than a part can follow.
+    pub(super) fn named(&self, part: f64, error: ContactError, input: &K::Input) -> ContactError {
+        if !has_no_end(&error) {
+            return error;
+        }
+        let (kernel, half) = (self.kernel, 0.5 * part);
+        let q = motion::half_way::<K>(part, &self.q, &kernel.kinematics(self.t, &self.q, &self.z));
+        let change = |z: &K::Speeds| kernel.acceleration(self.t + half, &q, z, input).scale(half);
+        let (zero, free) = (K::Speeds::zero(), change(&self.z));
+        let by = change(&self.z.add_scaled(1.0, &free)).add_scaled(-1.0, &free);
+        let [free, by] = [free, by].map(|z| self.difference([z, zero], None));
+        if by.size() > STIFF_AT_LAST * free.size() { self.too_stiff(part, by.speed()) } else { error }
     }
 
     /// A step with forces at the speeds that are foreseen at half of it.
@@ -233,10 +220,6 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         middle.with_mean(self.kernel, (self.t, h), (&self.q, way), z)
     }
 
-    fn mean(&self, how: Mean, h: f64, end: &End<K>, input: &K::Input) -> K::Speeds {
-        how.of(self.kernel, (self.t, h), [(&self.q, &self.z), (&end.q, &end.z)], input)
-    }
-
     pub(super) fn used(&self, h: f64, middle: &Middle<K>, made: &Attempt<K>) -> Used<K::Speeds> {
         Used {
             h,
@@ -303,13 +286,13 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
     /// Whether speeds do not grow by forces that were taken at other speeds, or at other places where these are to be
     /// mean ones.
     pub(super) fn agrees(&self, h: f64, (middle, made): (&Middle<K>, &Attempt<K>), input: &K::Input) -> bool {
-        let (kernel, used) = (self.kernel, self.used(h, middle, made));
-        if used.is_plain() && !self.last.is_stiff() || !made.end.z.is_finite() {
+        let (kernel, used, flies) = (self.kernel, self.used(h, middle, made), made.end.flies());
+        if used.is_plain(flies) && !self.last.is_stiff() || !made.end.z.is_finite() {
             return true;
         }
         let mean = motion::mean(&self.z, &made.end.z);
         let at_mean = kernel.acceleration(middle.t, &middle.q, &mean, input);
-        if used.grows(&at_mean) {
+        if !self.holds_at_mean(&used, flies, &at_mean) {
             return false;
         }
         let at_mean_place = || kernel.acceleration(middle.t, &self.to_mean(h, middle, mean, mean).q, &mean, input);
@@ -325,34 +308,28 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         input: &K::Input,
         (watch, last): (&mut W, bool),
     ) -> Result<Corrected<K>, ContactError> {
-        let (mut part, mut before, mut speed, mut struck) = (1.0, None, 0, made.end.struck);
+        let (mut part, mut attempts, mut struck) = (1.0, Attempts::default(), made.end.struck);
+        let mut before = None;
+        let sizes = (!made.end.flies()).then(|| self.used(h, &middle, &made).sizes(PART));
         for n in 0..CORRECTIONS {
             let how = if made.end.struck { Mean::Ends } else { Mean::Curved };
-            let wanted = self.mean(how, h, &made.end, input);
+            let free = || *before.get_or_insert_with(|| self.kernel.acceleration(self.t, &self.q, &self.z, input));
+            let wanted = how.of(self.kernel, (self.t, h), (&self.z, free), (&made.end.q, &made.end.z), input);
             let (used, way) = (self.used(h, &middle, &made), motion::mean(&self.z, &made.end.z));
-            let of_way = if middle.is_mean { used.off(&middle.way, &way) } else { K::Speeds::zero() };
-            let off = [used.off(&middle.z, &wanted), of_way];
-            let size;
-            (size, speed) = largest(&off);
-            // Forces change by what speeds do, times the part that is left of differences, or more where it is less by
-            // the part that was taken of them.
-            let left = before.map_or(1.0, |before| size / largest(&before).0);
-            let settled = size <= NEARLY && size * left.min(1.0) <= SETTLED;
-            if settled || !made.end.z.is_finite() {
+            let of_way = if middle.is_mean { way.add_scaled(-1.0, &middle.way) } else { K::Speeds::zero() };
+            attempts.add(self.difference([wanted.add_scaled(-1.0, &middle.z), of_way], sizes.as_ref()), &used);
+            let settled = !made.end.z.is_finite() || self.has_settled(&used, made.end.flies(), &attempts);
+            // The second difference tells how much forces depend on speeds.
+            let leaves = n == 1 && !settled && attempts.leaves(used.least) > most(attempts.opposes(), last);
+            let looks = !middle.is_mean && (n == 1 || n > 1 && settled);
+            if leaves || looks && self.is_too_steep(&used, (&attempts, sizes.as_ref()), last) {
+                break;
+            }
+            if settled {
                 watch.settles();
                 return Ok((middle, made, None));
             }
-            // The second difference tells how much forces depend on speeds.
-            let most = match before {
-                Some(before) if last && opposes(&before, &off) => STIFFEST,
-                _ if last => STIFF_AT_LAST,
-                _ => STIFF,
-            };
-            if n == 1 && left > most {
-                break;
-            }
-            part = before.filter(|_| n > 1).map_or(1.0, |before| relaxation(part, &before, &off));
-            before = Some(off);
+            part = if n > 1 { attempts.relaxation(part, LEAST_PART) } else { 1.0 };
             let rule = Rule { mean: how, part, at_mean_place: middle.is_mean };
             watch.again(made.end.attempted(self.next.as_ref()), rule);
             let (way, z) = (motion::towards(&middle.way, &way, part), motion::towards(&middle.z, &wanted, part));
@@ -365,7 +342,35 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         if last && struck && !made.end.struck {
             (middle, made) = self.again(h, (&middle, &made), input, (watch, true))?;
         }
-        let cause = self.too_stiff(h, speed);
+        let cause = self.too_stiff(h, attempts.speed());
         if last && made.end.struck { Ok((middle, made, Some(cause))) } else { Err(cause) }
+    }
+
+    /// Whether forces change by more than attempts may follow between the speeds of the first of them and others: of
+    /// what is not linear attempts may settle where no motion leads.
+    fn is_too_steep(
+        &self,
+        used: &Used<K::Speeds>,
+        (attempts, sizes): (&Attempts<K::Speeds>, Option<&K::Speeds>),
+        last: bool,
+    ) -> bool {
+        let Some((z, acceleration)) = attempts.first else { return false };
+        let (zero, off) = (K::Speeds::zero(), used.used.add_scaled(-1.0, &z));
+        if off.max_norm() <= used.least {
+            return false;
+        }
+        let off = self.difference([off, zero], sizes);
+        let by = used.acceleration.add_scaled(-1.0, &acceleration).scale(0.5 * used.h);
+        let by = self.difference([by, zero], sizes);
+        by.size() > most(off.is_opposed_by(&by), last) * off.size()
+    }
+}
+
+/// The part of a difference that may be left in the next one, by whether that is against it.
+fn most(opposes: bool, last: bool) -> f64 {
+    match (opposes, last) {
+        (true, true) => STIFFEST,
+        (false, true) => STIFF_AT_LAST,
+        (_, false) => STIFF,
     }
 }

@@ -238,7 +238,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         if !(h > 0.0 && h.is_finite()) {
             return Err(self.error(None, ContactErrorKind::InvalidInterval));
         }
-        self.report = self.in_parts(h, input, (HALVINGS, watch))?;
+        let made = self.in_parts(h, input, (HALVINGS, watch));
+        self.report = made.map_err(|error| self.named(h / f64::from(1_u32 << HALVINGS), error, input))?;
         Ok(self.report)
     }
 

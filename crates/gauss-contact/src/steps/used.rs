@@ -4,8 +4,6 @@ use gauss_runtime::configuration::VectorSpace;
 
 /// Part of a speed by which that at which forces are taken may differ from the mean one without further notice.
 const NEAR: f64 = 1e-5;
-/// The part of a speed by which forces may change it for having been taken at another one that was foreseen.
-pub(super) const ALLOWED: f64 = 1e-6;
 /// Part of the sizes of speeds before and after a step by which these may change before one looks whether that is so
 /// because forces do: a quarter of a swing.
 const ROUGH: f64 = 0.5;
@@ -14,11 +12,13 @@ const FAR: f64 = 0.2;
 /// Part of a speed before a step by which forces may change it by changing along half of the step.
 const STEEP: f64 = 0.25;
 /// The part of the largest speed below which one counts as zero. Units of speeds may differ.
-const SMALL: f64 = 1e-3;
+pub(super) const SMALL: f64 = 1e-3;
 /// The same where a speed that is zero for a moment is no measure of what others do to it.
-const PART: f64 = 0.1;
+pub(super) const PART: f64 = 0.1;
 /// A speed as small as that has no digits to compare.
 const LEAST: f64 = 1e-150;
+/// Rounding of mean speeds, as a part of speeds.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// The speeds of a step: before it, those at which forces were taken, with their acceleration, and after it.
 pub(super) struct Used<V> {
@@ -32,12 +32,12 @@ pub(super) struct Used<V> {
 }
 
 impl<V: VectorSpace<f64>> Used<V> {
-    fn mean(&self, i: usize) -> f64 {
+    pub(super) fn mean(&self, i: usize) -> f64 {
         0.5 * (self.before.component(i) + self.after.component(i))
     }
 
     /// The size of each speed, by which differences are judged, with a part of the largest.
-    fn sizes(&self, part: f64) -> V {
+    pub(super) fn sizes(&self, part: f64) -> V {
         let mut sizes = V::zero();
         (0..V::DIM)
             .for_each(|i| sizes.set_component(i, self.before.component(i).abs() + self.after.component(i).abs()));
@@ -60,22 +60,24 @@ impl<V: VectorSpace<f64>> Used<V> {
         sizes
     }
 
-    /// Whether forces were taken at the mean speeds, as nearly as need be.
-    pub(super) fn is_plain(&self) -> bool {
-        let sizes = self.sizes(SMALL);
-        let off = |i: usize| (self.mean(i) - self.used.component(i)).abs();
-        (0..V::DIM).all(|i| off(i) <= NEAR * sizes.component(i))
+    /// The size of each speed by itself: those at both ends, with what forces add to it in the step.
+    pub(super) fn own_sizes(&self) -> V {
+        let mut sizes = V::zero();
+        for i in 0..V::DIM {
+            let ends = self.before.component(i).abs() + self.after.component(i).abs();
+            sizes.set_component(i, ends + self.h * self.acceleration.component(i).abs() + LEAST);
+        }
+        sizes
     }
 
-    /// Whether speeds may grow by what forces differ from those at the mean speeds, whose acceleration is given. Where
-    /// that is against the difference of the speeds, as of dampers, they do not, unless it is as large.
-    pub(super) fn grows(&self, at_mean: &V) -> bool {
-        let sizes = self.sizes(SMALL);
-        (0..V::DIM).any(|i| {
-            let by = self.h * (self.acceleration.component(i) - at_mean.component(i));
-            let off = self.used.component(i) - self.mean(i);
-            by.abs() > ALLOWED * sizes.component(i) && (by * off >= 0.0 || by.abs() > 0.5 * off.abs())
-        })
+    /// Whether forces were taken at the mean speeds: in flight to rounding, else as nearly as need be.
+    pub(super) fn is_plain(&self, flies: bool) -> bool {
+        let allowed = match flies {
+            true => self.own_sizes().scale(ROUNDING),
+            false => self.sizes(SMALL).scale(NEAR),
+        };
+        let off = |i: usize| (self.mean(i) - self.used.component(i)).abs();
+        (0..V::DIM).all(|i| off(i) <= allowed.component(i))
     }
 
     /// Whether a speed changes so much that forces may do so within the step more than it can follow.
@@ -118,14 +120,5 @@ impl<V: VectorSpace<f64>> Used<V> {
     /// Whether an acceleration changes all speeds by less than a part of them, beside another one.
     pub(super) fn is_within(&self, part: f64, accelerations: [&V; 2]) -> bool {
         self.changes_beyond(part, accelerations).is_none()
-    }
-
-    /// The differences of speeds to others, as parts of the sizes.
-    pub(super) fn off(&self, used: &V, wanted: &V) -> V {
-        let (sizes, mut off) = (self.sizes(PART), V::zero());
-        for i in (0..V::DIM).filter(|i| sizes.component(*i) > 0.0) {
-            off.set_component(i, (wanted.component(i) - used.component(i)) / sizes.component(i));
-        }
-        off
     }
 }

@@ -7,7 +7,9 @@ mod changeover;
 #[allow(dead_code, reason = "scenes of the other tests")]
 mod common;
 mod damped;
+mod drag;
 mod driven;
+mod flying;
 mod front;
 mod lanes;
 mod powered;
