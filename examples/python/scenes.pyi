@@ -17,7 +17,8 @@ Contacts = Literal["events", "steps"]
 Impact = Literal["newton", "moreau", "poisson", "sequential"]
 Friction = Literal["coulomb", "relaxed"]
 Scheme = Literal["midpoint", "moreau_jean"]
-End = tuple[str, float] | tuple[str, float, Direction] | Function | tuple[Function, Direction]
+NumberEnd = tuple[str, float] | tuple[str, float, Direction]
+End = NumberEnd | Function | tuple[Function, Direction]
 Jump = tuple[End, Function] | tuple[End, Function, Literal["through"]]
 
 class ParameterError(ValueError):
@@ -92,6 +93,23 @@ class Run:
     def __contains__(self, name: str) -> bool: ...
     def __len__(self) -> int: ...
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
+
+class Stepper:
+    """A run that makes a step when it is asked to."""
+    @property
+    def t(self) -> float: ...
+    @property
+    def q(self) -> Array: ...
+    @property
+    def z(self) -> Array: ...
+    @property
+    def stopped_by(self) -> int | None: ...
+    @property
+    def steps(self) -> int: ...
+    @property
+    def rejected(self) -> int: ...
+    def step(self, u: ArrayLike | None = None) -> Literal["step", "until", "end"]: ...
+    def interpolate(self, t: float) -> tuple[Array, Array]: ...
 
 class Events(NamedTuple):
     """Times and states of one event of a run."""
@@ -216,6 +234,21 @@ class Kernel:
         scheme: Scheme | None = None,
         progress: Callable[[float], object] | bool | None = None,
     ) -> Run: ...
+    def stepper(
+        self,
+        q: ArrayLike,
+        z: ArrayLike,
+        interval: tuple[float, float],
+        *,
+        rtol: float | None = None,
+        atol: float | None = None,
+        step: float | None = None,
+        largest_step: float | None = None,
+        method: Method | None = None,
+        input: ArrayLike | None = None,
+        until: NumberEnd | Sequence[NumberEnd] | None = None,
+        max_steps: int | None = None,
+    ) -> Stepper: ...
     def ensemble(
         self,
         q: ArrayLike,
@@ -227,7 +260,7 @@ class Kernel:
         step: float | None = None,
         largest_step: float | None = None,
         input: ArrayLike | tuple[ArrayLike, ArrayLike] | None = None,
-        until: tuple[str, float] | tuple[str, float, Direction] | None = None,
+        until: NumberEnd | None = None,
         parameters: Mapping[str, ArrayLike] | None = None,
         max_steps: int | None = None,
         contacts: Contacts | None = None,

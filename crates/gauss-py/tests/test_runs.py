@@ -67,6 +67,10 @@ def test_robots_of_every_room():
         q, z = np.full(links, 0.2), np.zeros(links)
         run = chain.simulate(q, z, (0, 0.5), rtol=1e-10, atol=1e-10)
         assert np.ptp(run["kinetic_energy"] + run["potential_energy"]) < 1e-7
+        steps = chain.stepper(q, z, (0, 0.5), rtol=1e-10, atol=1e-10)
+        while steps.step() == "step":
+            pass
+        assert np.array_equal(steps.q, run.q[-1]) and np.array_equal(steps.z, run.z[-1]) and steps.steps == run.steps
         rates = lambda t, x: chain.rates(x[:links], x[links:])  # noqa: B023
         other = integrate.solve_ivp(rates, (0, 0.5), np.r_[q, z], method="DOP853", rtol=1e-11, atol=1e-11)
         # Both have errors of some tolerances, which chains of 20 links multiply by less than a thousand in 0.5 s.

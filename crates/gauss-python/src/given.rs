@@ -132,19 +132,27 @@ pub fn interval(given: &Bound<'_, PyAny>) -> PyResult<(f64, f64)> {
     }
 }
 
-/// Finite numbers, and what else must hold of tolerances and steps. The first of them is the relative tolerance.
-pub fn checked(interval: (f64, f64), positive: &[(&str, f64)]) -> PyResult<()> {
-    if !(interval.0.is_finite() && interval.1.is_finite()) {
-        return Err(PyValueError::new_err("the interval is a pair of finite times"));
-    }
+/// Finite times, and positive tolerances and lengths of steps.
+pub fn checked(
+    interval: (f64, f64),
+    (rtol, atol): (Option<f64>, Option<f64>),
+    (step, largest): (Option<f64>, Option<f64>),
+) -> PyResult<()> {
     let wrong = |why: String| Err(PyValueError::new_err(why));
-    match (positive.iter().find(|(_, value)| value.is_nan() || *value <= 0.0), positive.first()) {
-        (Some((name, value)), _) => wrong(format!("{name} must be positive, found {value}")),
-        (None, Some((name, value))) if *value < f64::EPSILON => wrong(format!(
-            "{name} is {value:e}, and numbers of 64 bits have rounding of {:.1e}: no step can keep it",
+    if !(interval.0.is_finite() && interval.1.is_finite()) {
+        return wrong("the interval is a pair of finite times".to_owned());
+    }
+    let all = [("rtol", rtol), ("atol", atol), ("step", step), ("largest_step", largest)];
+    let given = all.into_iter().filter_map(|(name, value)| Some((name, value?)));
+    if let Some((name, value)) = given.into_iter().find(|(_, value)| value.is_nan() || *value <= 0.0) {
+        return wrong(format!("{name} must be positive, found {value}"));
+    }
+    match rtol.filter(|rtol| *rtol < f64::EPSILON) {
+        Some(rtol) => wrong(format!(
+            "rtol is {rtol:e}, and numbers of 64 bits have rounding of {:.1e}: no step can keep it",
             f64::EPSILON
         )),
-        (None, _) => Ok(()),
+        None => Ok(()),
     }
 }
 

@@ -16,7 +16,7 @@ use crate::memory::Source;
 use crate::methods::{Id, SPECS, Sizes, Slot, Table, Work};
 use crate::runs::{self, Many, ManyEnds};
 use crate::scene::{ScalarOf, Scene};
-use crate::steps::{self, Control, InContact, Methods, Outcome, Request};
+use crate::steps::{self, AnyStepper, Control, InContact, Methods, Outcome, Request};
 
 /// A scene, its type forgotten.
 pub trait AnyScene: Send + Sync {
@@ -118,6 +118,8 @@ pub trait AnyKernel: Send + Sync {
     fn in_contact(&self, t: f64, state: (&[f64], &[f64]), input: &[f64]) -> Result<InContact, String>;
     /// A run.
     fn simulate(&self, request: &Request<'_>) -> Result<Outcome, String>;
+    /// A run step by step, without contacts.
+    fn stepper(&self, request: &Request<'_>) -> Result<Box<dyn AnyStepper>, String>;
     /// Many runs.
     fn ensemble(&self, many: &Many<'_>) -> Result<ManyEnds, String>;
     /// The time of the same batch in Rust.
@@ -421,6 +423,12 @@ impl<S: Scene> AnyKernel for Instance<S> {
     fn simulate(&self, request: &Request<'_>) -> Result<Outcome, String> {
         self.check(request.q, request.z)?;
         self.scene.steps.simulate(&self.single, request)
+    }
+
+    fn stepper(&self, request: &Request<'_>) -> Result<Box<dyn AnyStepper>, String> {
+        self.check(request.q, request.z)?;
+        let own = S::single(&self.numbers).map_err(|error| error.to_string())?;
+        self.scene.steps.stepper(own, request)
     }
 
     fn ensemble(&self, many: &Many<'_>) -> Result<ManyEnds, String> {

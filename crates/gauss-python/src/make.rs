@@ -13,13 +13,15 @@ use crate::ends::Ends;
 use crate::kernels::{AnyScene, Registered};
 use crate::run::Run;
 use crate::scene::Scene;
+use crate::stepping::Stepper;
 use crate::{errors, jax, stubs, tuples};
 
 /// Adds what all modules have: [`finish`] comes after the last class.
 pub fn begin(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let py = module.py();
     errors::set_package(module)?;
-    for class in [py.get_type::<Kernel>(), py.get_type::<Run>(), py.get_type::<Ends>()] {
+    let runs = [py.get_type::<Run>(), py.get_type::<Stepper>(), py.get_type::<Ends>()];
+    for class in [py.get_type::<Kernel>()].into_iter().chain(runs) {
         // Pickles look for it where it can be imported from.
         class.setattr("__module__", module.name()?)?;
         module.add(class.name()?, class)?;
@@ -57,7 +59,7 @@ pub fn attributes<'py>(py: Python<'py>, scene: &Arc<dyn AnyScene>) -> PyResult<B
 /// Adds `stubs()`, the text of the module's `.pyi`, and `__all__`.
 pub fn finish(module: &Bound<'_, PyModule>, scenes: Vec<Arc<dyn AnyScene>>) -> PyResult<()> {
     let py = module.py();
-    let names = ["Kernel", "Run", "Ends", "jax", "stubs"].into_iter().chain(errors::NAMES);
+    let names = ["Kernel", "Run", "Stepper", "Ends", "jax", "stubs"].into_iter().chain(errors::NAMES);
     let names = names.map(str::to_owned).chain(tuples::names());
     let all = names.chain(scenes.iter().map(|scene| scene.description().name.to_owned()));
     module.add("__all__", PyList::new(py, all.collect::<Vec<_>>())?)?;

@@ -128,9 +128,7 @@ impl Kernel {
     ) -> PyResult<Bound<'py, Run>> {
         let interval = given::interval(interval)?;
         let (scene, sizes) = (self.scene(), self.scene().sizes());
-        let lengths = [("step", step.unwrap_or(1.0)), ("largest_step", largest_step.unwrap_or(1.0))];
-        let positive = [("rtol", rtol.unwrap_or(1.0)), ("atol", atol.unwrap_or(1.0)), lengths[0], lengths[1]];
-        given::checked(interval, &positive)?;
+        given::checked(interval, (rtol, atol), (step, largest_step))?;
         let tolerances = (rtol, atol, largest_step);
         let words = Words { method, step, tolerances, contacts, impact, friction, scheme };
         let [events, jumps, ends] =
@@ -189,9 +187,7 @@ impl Kernel {
         let interval = given::interval(interval)?;
         let (kernel, scene) = (self.kernel(), self.kernel().scene());
         let sizes = scene.sizes();
-        let lengths = [("step", step.unwrap_or(1.0)), ("largest_step", largest_step.unwrap_or(1.0))];
-        let positive = [("rtol", rtol.unwrap_or(1.0)), ("atol", atol.unwrap_or(1.0)), lengths[0], lengths[1]];
-        given::checked(interval, &positive)?;
+        given::checked(interval, (rtol, atol), (step, largest_step))?;
         let own = [("step", step), ("largest_step", largest_step)].into_iter().find(|(_, given)| given.is_some());
         if let (false, Some((word, _))) = (self.touches(), own) {
             return Err(PyTypeError::new_err(format!("{word} is of contacts, and none act in this ensemble")));

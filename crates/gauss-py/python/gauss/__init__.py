@@ -6,7 +6,7 @@
 from ._errors import Mistake, SceneError
 from ._lie import adjoint, exp6, log6, turned
 from ._model import Field, Kernel, Limit, Model, load, scene
-from ._native import ContactError, Ends, IntegrationError, ParameterError, Run, jax
+from ._native import ContactError, Ends, IntegrationError, ParameterError, Run, Stepper, jax
 
 __version__ = "0.1.0"
 __all__ = [
@@ -21,6 +21,7 @@ __all__ = [
     "ParameterError",
     "Run",
     "SceneError",
+    "Stepper",
     "adjoint",
     "exp6",
     "jax",

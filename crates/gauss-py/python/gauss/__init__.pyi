@@ -14,6 +14,7 @@ from ._native import Ends as Ends
 from ._native import IntegrationError as IntegrationError
 from ._native import ParameterError as ParameterError
 from ._native import Run as Run
+from ._native import Stepper as Stepper
 from ._native import jax as jax
 
 __version__: str

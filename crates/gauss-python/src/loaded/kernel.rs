@@ -14,7 +14,7 @@ use crate::description::Description;
 use crate::kernels::{AnyKernel, AnyScene, OffGroup, Violation, off_group};
 use crate::methods::{Id, SPECS, Sizes, Slot, Work};
 use crate::runs::{Many, ManyEnds, TOUCHED, one_by_one, request};
-use crate::steps::{self, Control, InContact, Outcome, Request};
+use crate::steps::{self, AnyStepper, Control, InContact, Outcome, Request};
 
 impl AnyScene for LoadedScene {
     fn description(&self) -> &Description {
@@ -140,6 +140,11 @@ impl AnyKernel for LoadedKernel {
     fn simulate(&self, request: &Request<'_>) -> Result<Outcome, String> {
         self.check(request.q, request.z)?;
         runs::simulate(&self.kernel, &self.scene.sizes(), request)
+    }
+
+    fn stepper(&self, request: &Request<'_>) -> Result<Box<dyn AnyStepper>, String> {
+        self.check(request.q, request.z)?;
+        runs::stepper(&self.kernel, &self.scene.sizes(), request)
     }
 
     fn ensemble(&self, many: &Many<'_>) -> Result<ManyEnds, String> {

@@ -4,14 +4,18 @@
 //! have are zero there, stand still, and are taken out of all that leaves the run or asks its functions. Tolerances are
 //! those of the model's own numbers ([`System::share`]).
 
+use std::sync::Arc;
+
 use gauss_jit::{Kernel, MixedConfiguration, System, SystemWithContacts};
-use gauss_runtime::integrate::{Absent, JacobianMethod, NoTaylor, StepSetting};
+use gauss_runtime::integrate::{
+    Absent, EstimatingStep, JacobianMethod, MethodPlace, NoTaylor, StepOutcome, StepSetting,
+};
 use gauss_runtime::prelude::{Configuration, GaussSystem, SVector};
 
 use crate::methods::Sizes;
 use crate::steps::{
-    self, Control, Effect, Event, Held, InContact, Input, Jumped, Outcome, Request, Until, Watched, components, lacks,
-    no_contacts, numbers_of, smooth, touching, vector,
+    self, AnyStepper, Control, Effect, Event, Held, InContact, Input, Jumped, Outcome, OwnStepper, Request, Stoppable,
+    Until, Watched, components, lacks, no_contacts, numbers_of, smooth, touching, vector,
 };
 
 /// A system with room for N numbers of each kind.
@@ -101,19 +105,88 @@ pub fn simulate(kernel: &Kernel, sizes: &Sizes, request: &Request<'_>) -> Result
         });
     }
     let kernel = &kernel.without_contacts();
-    let Control::Smooth(method, _) = request.control else { return Err(no_contacts()) };
-    match method.clause() {
-        Some("taylor") => return Err(format!("the method {method} is one of compiled kernels")),
-        Some(clause) if !kernel.model().methods().any(|name| name == clause) => {
-            return Err(lacks(method.name(), clause));
-        }
-        // Matrices over states of more are too large for the stacks of threads.
-        None if least(sizes) > 64 => in_room!(kernel, least(sizes), |system| {
+    match needs_no_jacobian(kernel, request)? && least(sizes) > 64 {
+        true => in_room!(kernel, least(sizes), |system| {
             in_its_room(&system, sizes, request, |q, request| smooth::<_, Absent, NoTaylor>(&system, q, request))
         }; 128),
-        _ => in_room!(kernel, least(sizes), |system| {
+        false => in_room!(kernel, least(sizes), |system| {
             in_its_room(&system, sizes, request, |q, request| smooth::<_, JacobianMethod, NoTaylor>(&system, q, request))
         }; 4 8 16 32 64),
+    }
+}
+
+/// Whether the method needs no Jacobian: matrices over more than 64 states are too large for the stacks of threads.
+///
+/// # Errors
+/// A method that the model has not.
+fn needs_no_jacobian(kernel: &Kernel, request: &Request<'_>) -> Result<bool, String> {
+    let Control::Smooth(method, _) = request.control else { return Err(no_contacts()) };
+    match method.clause() {
+        Some("taylor") => Err(format!("the method {method} is one of compiled kernels")),
+        Some(clause) if !kernel.model().methods().any(|name| name == clause) => Err(lacks(method.name(), clause)),
+        clause => Ok(clause.is_none()),
+    }
+}
+
+/// A run step by step, and the kernel that it borrows.
+struct OwnSteps {
+    /// Dropped before the kernel.
+    stepper: Box<dyn AnyStepper>,
+    room: usize,
+    counts: [usize; 2],
+    _kernel: Arc<Kernel>,
+}
+
+/// A run step by step.
+///
+/// # Errors
+/// A model that is too large; what [`smooth`] refuses.
+#[allow(unsafe_code)]
+pub fn stepper(kernel: &Kernel, sizes: &Sizes, request: &Request<'_>) -> Result<Box<dyn AnyStepper>, String> {
+    let own = Arc::new(kernel.without_contacts());
+    // SAFETY: the kernel is not moved or changed, and dropped after the stepper, which gives no part of it away.
+    let kernel: &'static Kernel = unsafe { &*Arc::as_ptr(&own) };
+    let (stepper, room) = match needs_no_jacobian(kernel, request)? && least(sizes) > 64 {
+        true => in_room!(kernel, least(sizes), |system| begun::<Absent, _, _>(system, sizes, request); 128),
+        false => in_room!(kernel, least(sizes), |system| {
+            begun::<JacobianMethod, _, _>(system, sizes, request)
+        }; 4 8 16 32 64),
+    }?;
+    Ok(Box::new(OwnSteps { stepper, room, counts: [sizes.configuration, sizes.speeds], _kernel: own }))
+}
+
+/// The steps in the numbers of the room, and that room.
+fn begun<R, const N: usize, const CONSTRAINED: bool>(
+    system: InRoom<'static, N, CONSTRAINED>,
+    sizes: &Sizes,
+    request: &Request<'_>,
+) -> Result<(Box<dyn AnyStepper>, usize), String>
+where
+    R: MethodPlace<JacobianMethod> + EstimatingStep<Stoppable<'static, InRoom<'static, N, CONSTRAINED>>> + 'static,
+    OwnStepper<InRoom<'static, N, CONSTRAINED>, R, NoTaylor>: Send,
+{
+    in_room_of(&system, sizes, request, |q, request| Ok((steps::stepper::<_, R, NoTaylor>(system, q, request)?, N)))
+}
+
+impl AnyStepper for OwnSteps {
+    fn step(&mut self) -> Result<StepOutcome, String> {
+        self.stepper.step()
+    }
+
+    fn act(&mut self, input: &[f64]) -> Result<(), String> {
+        self.stepper.act(input)
+    }
+
+    fn state(&self) -> Vec<f64> {
+        own_numbers(&self.stepper.state(), self.room, self.counts)
+    }
+
+    fn at(&self, t: f64) -> Result<Vec<f64>, String> {
+        Ok(own_numbers(&self.stepper.at(t)?, self.room, self.counts))
+    }
+
+    fn counts(&self) -> [u64; 2] {
+        self.stepper.counts()
     }
 }
 
@@ -159,6 +232,17 @@ fn in_its_room<const N: usize, const CONSTRAINED: bool>(
     request: &Request<'_>,
     run: impl FnOnce(MixedConfiguration<N>, &Request<'_>) -> Result<Outcome, String>,
 ) -> Result<Outcome, String> {
+    let outcome = in_room_of(system, sizes, request, run)?;
+    Ok(without_room(outcome, N, [sizes.configuration, sizes.speeds]))
+}
+
+/// A run whose functions have the model's own numbers.
+fn in_room_of<T, const N: usize, const CONSTRAINED: bool>(
+    system: &InRoom<'_, N, CONSTRAINED>,
+    sizes: &Sizes,
+    request: &Request<'_>,
+    run: impl FnOnce(MixedConfiguration<N>, &Request<'_>) -> Result<T, String>,
+) -> Result<T, String> {
     let (configuration, speeds) = (sizes.configuration, sizes.speeds);
     let of_input = |t: f64, q: &[f64], z: &[f64]| match request.input {
         Input::Function(function) => function(t, &q[..configuration], &z[..speeds]),
@@ -209,8 +293,7 @@ fn in_its_room<const N: usize, const CONSTRAINED: bool>(
     let controller = request.controller.as_ref();
     let controller = controller.map(|held| Held { period: held.period, delay: held.delay, law: &law });
     let request = Request { control, input: &input, controller, until: &until, ..*request };
-    let outcome = run(system.configuration(request.q).renormalise(), &request)?;
-    Ok(without_room(outcome, N, counts))
+    run(system.configuration(request.q).renormalise(), &request)
 }
 
 /// A relative tolerance of the model's own numbers; those below rounding were refused before.
@@ -231,22 +314,30 @@ fn jump<'a>(until: &'a Until<'_>, [q, z]: [usize; 2]) -> impl Fn(f64, &[f64], &[
 }
 
 /// The run in the model's own numbers: of time, q, z and what follows, room is taken out.
-fn without_room(outcome: Outcome, room: usize, [q, z]: [usize; 2]) -> Outcome {
-    let is_own = |place: usize| match place {
-        0 => true,
-        place if place <= room => place <= q,
-        place if place <= 2 * room => place - room <= z,
-        _ => true,
-    };
-    let row = |row: &[f64]| {
-        let numbers = row.iter().enumerate().filter(|(place, _)| is_own(*place));
-        numbers.map(|(_, number)| *number).collect::<Vec<_>>()
-    };
-    let columns = outcome.columns.chunks(outcome.rows.max(1)).enumerate().filter(|(place, _)| is_own(*place));
+fn without_room(outcome: Outcome, room: usize, counts: [usize; 2]) -> Outcome {
+    let row = |row: &[f64]| own_numbers(row, room, counts);
+    let columns = outcome.columns.chunks(outcome.rows.max(1)).enumerate();
+    let columns = columns.filter(|(place, _)| is_own(*place, room, counts));
     Outcome {
         columns: columns.flat_map(|(_, column)| column).copied().collect(),
         last: row(&outcome.last),
         events: outcome.events.iter().map(|event| Event { number: event.number, row: row(&event.row) }).collect(),
         ..outcome
     }
+}
+
+/// Whether the number at a place in a row of time, q, z and what follows is the model's own.
+fn is_own(place: usize, room: usize, [q, z]: [usize; 2]) -> bool {
+    match place {
+        0 => true,
+        place if place <= room => place <= q,
+        place if place <= 2 * room => place - room <= z,
+        _ => true,
+    }
+}
+
+/// A row without room.
+fn own_numbers(row: &[f64], room: usize, counts: [usize; 2]) -> Vec<f64> {
+    let numbers = row.iter().enumerate().filter(|(place, _)| is_own(*place, room, counts));
+    numbers.map(|(_, number)| *number).collect()
 }

@@ -8,6 +8,7 @@ mod contacts;
 mod one;
 mod outcome;
 mod request;
+mod stepper;
 mod stoppable;
 mod watching;
 
@@ -20,6 +21,9 @@ pub use one::Methods;
 pub use one::{lacks, no_contacts, smooth};
 pub use outcome::{Event, Happening, InContact, KINDS, Outcome, Touched, column_names};
 pub use request::{Control, Effect, Function, Held, Input, Jumped, Request, Table, Until, Watched, looking};
+pub use stepper::AnyStepper;
+#[cfg(feature = "loaded")]
+pub use stepper::{OwnStepper, stepper};
 pub use stoppable::Stoppable;
 
 use gauss_runtime::prelude::{Configuration, VectorSpace};

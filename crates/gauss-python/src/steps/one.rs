@@ -9,6 +9,7 @@ use gauss_runtime::prelude::*;
 
 use super::outcome::{InContact, Outcome, columns, energies, happened, number_of_end, row};
 use super::request::{Control, Request};
+use super::stepper::{AnyStepper, OwnStepper, stepper};
 use super::stoppable::Stoppable;
 use super::watching::{Moving, input, jump, of_numbers, watched};
 use super::{configuration, contacts, vector, words};
@@ -16,20 +17,23 @@ use crate::methods::System;
 
 /// Time, q and z, input.
 type At<S> = fn(&S, f64, (&[f64], &[f64]), &[f64]) -> Result<InContact, String>;
-type Stepper<S> = fn(&S, &Request<'_>) -> Result<Outcome, String>;
+type Run<S> = fn(&S, &Request<'_>) -> Result<Outcome, String>;
+/// A run step by step.
+type Begin<S> = fn(S, &Request<'_>) -> Result<Box<dyn AnyStepper>, String>;
 
 /// The contacts of a system, and what is done with them.
 #[derive(Clone, Copy, Debug)]
 struct Contacts<S> {
     all: &'static [Contact],
-    run: Stepper<S>,
+    run: Run<S>,
     at: At<S>,
 }
 
 /// The runs of a system: by methods without contacts, and with contacts.
 #[derive(Clone, Copy, Debug)]
 pub struct Methods<S> {
-    smooth: Stepper<S>,
+    smooth: Run<S>,
+    stepper: Begin<S>,
     contacts: Option<Contacts<S>>,
 }
 
@@ -39,10 +43,15 @@ impl<S: System<Scalar = f64>> Methods<S> {
     #[must_use]
     pub fn new<R, P>() -> Self
     where
-        for<'a> R: MethodPlace<JacobianMethod> + EstimatingStep<Stoppable<'a, S>>,
-        for<'a> P: MethodPlace<Taylor> + Steps<Stoppable<'a, S>>,
+        for<'a> R: MethodPlace<JacobianMethod> + EstimatingStep<Stoppable<'a, S>> + 'static,
+        for<'a> P: MethodPlace<Taylor> + Steps<Stoppable<'a, S>> + 'static,
+        OwnStepper<S, R, P>: Send,
     {
-        Self { smooth: |system, request| smooth::<S, R, P>(system, configuration(request.q)?, request), contacts: None }
+        Self {
+            smooth: |system, request| smooth::<S, R, P>(system, configuration(request.q)?, request),
+            stepper: |system, request| stepper::<S, R, P>(system, configuration(request.q)?, request),
+            contacts: None,
+        }
     }
 
     /// Runs with these contacts, which are those of all kernels of the type.
@@ -75,6 +84,14 @@ impl<S: System<Scalar = f64>> Methods<S> {
             .map_or(Err("the scene has no contacts".to_owned()), |own| (own.at)(system, t, state, input))
     }
 
+    /// Begins a run of a kernel step by step, without its contacts.
+    ///
+    /// # Errors
+    /// A first state that is none, a method that the system has not.
+    pub fn stepper(&self, system: S, request: &Request<'_>) -> Result<Box<dyn AnyStepper>, String> {
+        (self.stepper)(system, request)
+    }
+
     /// Runs a kernel, without its contacts where the control has nothing to do with them.
     ///
     /// # Errors
@@ -97,14 +114,25 @@ where
     R: MethodPlace<JacobianMethod> + EstimatingStep<Stoppable<'a, S>>,
     P: MethodPlace<Taylor> + Steps<Stoppable<'a, S>>,
 {
+    run(&Stoppable::new(system, request.stop), q, request, method::<R, P>(request)?)
+}
+
+/// The control of a run by the method that was chosen by name.
+///
+/// # Errors
+/// A method that needs a clause.
+pub(super) fn method<R, P>(request: &Request<'_>) -> Result<MethodControl<f64, R, P>, String>
+where
+    R: MethodPlace<JacobianMethod>,
+    P: MethodPlace<Taylor>,
+{
     let Control::Smooth(method, setting) = request.control else { return Err(no_contacts()) };
     let control: MethodControl<f64, R, P> = method.control(setting).map_err(|error| match error {
         MethodError::Clause(method, clause) => lacks(method.name(), clause),
         other => other.to_string(),
     })?;
     let within = request.input.changes_within();
-    let control = if within.is_finite() { control.input_changes_within(within) } else { control };
-    run(&Stoppable::new(system, request.stop), q, request, control)
+    Ok(if within.is_finite() { control.input_changes_within(within) } else { control })
 }
 
 /// Message that a run with contacts needs some.

@@ -1,33 +1,61 @@
 //! A system that has no motion any more once it is told to stop: the run then ends with the last good state. Its gaps
 //! are open: who runs it has chosen that, and contacts have runs of their own.
 
+use std::ops::Deref;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use gauss_runtime::prelude::*;
 
+/// A system that somebody else has, or its own.
+enum Held<'a, S> {
+    Lent(&'a S),
+    Own(S),
+}
+
+impl<S> Deref for Held<'_, S> {
+    type Target = S;
+
+    fn deref(&self) -> &S {
+        match self {
+            Self::Lent(system) => system,
+            Self::Own(system) => system,
+        }
+    }
+}
+
 /// The system, and whether it shall stop.
 pub struct Stoppable<'a, S> {
-    system: &'a S,
-    stop: &'a AtomicBool,
+    system: Held<'a, S>,
+    /// Nobody stops one that has none.
+    stop: Option<&'a AtomicBool>,
     over: AtomicBool,
 }
 
 impl<'a, S> Stoppable<'a, S> {
     /// A system that goes on until the flag is set, which many of them may share.
     pub fn new(system: &'a S, stop: &'a AtomicBool) -> Self {
-        Self { system, stop, over: AtomicBool::new(false) }
+        Self { system: Held::Lent(system), stop: Some(stop), over: AtomicBool::new(false) }
+    }
+
+    /// A system that goes on as long as it is asked to.
+    pub fn own(system: S) -> Self {
+        Self { system: Held::Own(system), stop: None, over: AtomicBool::new(false) }
     }
 
     /// Ends the run: whether it was told to stop. States between steps are made by the system, which moves on for that.
     pub fn end(&self) -> bool {
         self.over.store(true, Ordering::Relaxed);
-        self.stop.load(Ordering::Relaxed)
+        self.is_told()
+    }
+
+    fn is_told(&self) -> bool {
+        self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
     }
 }
 
 impl<S> Stoppable<'_, S> {
     fn or_none<T: Real, V: VectorSpace<T>>(&self, rates: V) -> V {
-        let stops = self.stop.load(Ordering::Relaxed) && !self.over.load(Ordering::Relaxed);
+        let stops = self.is_told() && !self.over.load(Ordering::Relaxed);
         if stops { rates.scale(T::from_f64(f64::NAN)) } else { rates }
     }
 }

@@ -61,11 +61,19 @@ pub(super) fn of_numbers<Q: Configuration<Scalar = f64>, Z: VectorSpace<f64>, U:
 /// The function of an event.
 pub(super) fn watch<'a, S: Moving>(until: &'a Until<'_>) -> Watch<'a, S::Configuration, S::Speeds> {
     match until.watched {
-        Watched::Number(place, value) => Box::new(move |_, q, z| {
-            let size = <<S::Configuration as Configuration>::Components as VectorSpace<f64>>::DIM;
-            let number = if place < size { q.components().component(place) } else { z.component(place - size) };
-            number - value
-        }),
+        Watched::Number(place, value) => Box::new(number::<S>(place, value)),
         Watched::Function(function) => Box::new(move |t, q, z| function(t, &numbers_of(q), &components(z))),
+    }
+}
+
+/// A number of q, or behind these of z, less a value.
+pub(super) fn number<S: Moving>(
+    place: usize,
+    value: f64,
+) -> impl Fn(f64, &S::Configuration, &S::Speeds) -> f64 + Send + 'static {
+    move |_, q, z| {
+        let size = <<S::Configuration as Configuration>::Components as VectorSpace<f64>>::DIM;
+        let number = if place < size { q.components().component(place) } else { z.component(place - size) };
+        number - value
     }
 }
