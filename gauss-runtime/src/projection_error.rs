@@ -28,6 +28,9 @@ pub enum ProjectionFailure {
     NonFinite,
     /// Corrections do not settle: the state is too far from the constraints, or they contradict each other.
     NotConverged,
+    /// The constraints hold where the search ended, and their gradients vanish or depend on one another there: so does
+    /// that of (x − c)² at x = c.
+    Singular,
 }
 
 /// A state that could not be brought onto the constraints: see
@@ -57,7 +60,9 @@ impl ProjectionError {
 impl fmt::Display for ProjectionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { level, failure, given, residual } = self;
-        write!(f, "no state that satisfies the constraints was found: ")?;
+        if *failure != ProjectionFailure::Singular {
+            write!(f, "no state that satisfies the constraints was found: ")?;
+        }
         match failure {
             ProjectionFailure::NonFinite => write!(
                 f,
@@ -69,6 +74,12 @@ impl fmt::Display for ProjectionError {
                 f,
                 "corrections of the {level} do not settle: the given state misses the constraints by {given:e}, the \
                  nearest that was found by {residual:e}; it is too far from them, or they contradict each other"
+            ),
+            ProjectionFailure::Singular => write!(
+                f,
+                "the constraints hold where the search ended (residual of the {level} {given:e}, then {residual:e}), but \
+                 one has a gradient that vanishes there, so that nothing holds it: of `powi(x - c, 2)` write `x - c`; or \
+                 constraints depend on one another there, which they may in a scene that says `redundant`"
             ),
         }
     }

@@ -17,13 +17,13 @@ use crate::steps::{AnyStepper, Effect, Input, Request, Until, Watched};
 /// A run that makes a step when it is asked to.
 #[pyclass(frozen, module = "gauss_python")]
 pub struct Stepper {
-    steps: Mutex<Progress>,
+    steps: Mutex<Course>,
     configuration: usize,
     input: usize,
 }
 
 /// The run, and what came of its last step.
-struct Progress {
+struct Course {
     stepper: Box<dyn AnyStepper>,
     outcome: StepOutcome,
 }
@@ -32,7 +32,7 @@ type State<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 
 impl Stepper {
     // Nothing is left half done where a thread panics.
-    fn progress(&self) -> MutexGuard<'_, Progress> {
+    fn course(&self) -> MutexGuard<'_, Course> {
         self.steps.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -42,7 +42,7 @@ impl Stepper {
     }
 
     fn state<'py>(&self, py: Python<'py>) -> State<'py> {
-        self.pair(py, &self.progress().stepper.state())
+        self.pair(py, &self.course().stepper.state())
     }
 }
 
@@ -55,10 +55,10 @@ impl Stepper {
     fn step(&self, py: Python<'_>, u: Option<&Bound<'_, PyAny>>) -> PyResult<&'static str> {
         let input = u.map(|input| vector("u", input, self.input)).transpose()?;
         let stepped = py.detach(|| {
-            let mut progress = self.progress();
-            input.map_or(Ok(()), |input| progress.stepper.act(&input))?;
-            progress.outcome = progress.stepper.step()?;
-            Ok(progress.outcome)
+            let mut course = self.course();
+            input.map_or(Ok(()), |input| course.stepper.act(&input))?;
+            course.outcome = course.stepper.step()?;
+            Ok(course.outcome)
         });
         match stepped {
             Ok(StepOutcome::Stop(_)) => Ok("until"),
@@ -70,14 +70,14 @@ impl Stepper {
 
     /// The state (q, z) at a time within the last step, as accurate as its ends.
     fn interpolate<'py>(&self, py: Python<'py>, t: f64) -> PyResult<State<'py>> {
-        let row = py.detach(|| self.progress().stepper.at(t)).map_err(PyValueError::new_err)?;
+        let row = py.detach(|| self.course().stepper.at(t)).map_err(PyValueError::new_err)?;
         Ok(self.pair(py, &row))
     }
 
     /// The time where the run is.
     #[getter]
     fn t(&self) -> f64 {
-        self.progress().stepper.state()[0]
+        self.course().stepper.state()[0]
     }
 
     /// The configuration where the run is.
@@ -95,19 +95,19 @@ impl Stepper {
     /// The end that it came to before its time, by its number in `until`.
     #[getter]
     fn stopped_by(&self) -> Option<usize> {
-        if let StepOutcome::Stop(number) = self.progress().outcome { Some(number) } else { None }
+        if let StepOutcome::Stop(number) = self.course().outcome { Some(number) } else { None }
     }
 
     /// The steps so far.
     #[getter]
     fn steps(&self) -> u64 {
-        self.progress().stepper.counts()[0]
+        self.course().stepper.counts()[0]
     }
 
     /// The steps that were tried in vain.
     #[getter]
     fn rejected(&self) -> u64 {
-        self.progress().stepper.counts()[1]
+        self.course().stepper.counts()[1]
     }
 }
 
@@ -165,7 +165,7 @@ impl Kernel {
             look: &|_| (),
         };
         let stepper = py.detach(|| self.kernel().stepper(&request)).map_err(PyValueError::new_err)?;
-        let steps = Mutex::new(Progress { stepper, outcome: StepOutcome::Step });
+        let steps = Mutex::new(Course { stepper, outcome: StepOutcome::Step });
         Ok(Stepper { steps, configuration: sizes.configuration, input: sizes.input })
     }
 }

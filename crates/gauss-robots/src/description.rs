@@ -128,6 +128,8 @@ pub struct Link {
     pub at: At,
     /// Its own mass data, without those of links that are fixed to it.
     pub inertial: Option<Inertial>,
+    /// Notes on the masses of its parts: to be told where it moves.
+    pub mass_notes: Vec<Note>,
     /// Part of its weight that is held by a force at its centre of mass.
     pub held: f64,
 }

@@ -59,6 +59,11 @@ impl Structure {
         (0..count).for_each(|link| self.owned_by[self.owner_of[link]].push(link));
     }
 
+    /// A link, the one that it hangs on, and so on to the root.
+    pub fn way_to_root(&self, link: usize) -> impl Iterator<Item = usize> {
+        std::iter::successors(Some(link), |&link| self.parent_of[link])
+    }
+
     /// Which link this one moves as one with, and where it is in its axes. Circles have been refused.
     fn owner(&self, description: &Description, held: &[Option<f64>], link: usize) -> (usize, (Triple, Matrix)) {
         let (mut owner, mut place) = (link, ([0.0; 3], Rotation::none().matrix));

@@ -80,7 +80,7 @@ fn has_quaternions(node: Node<'_, '_>) -> bool {
 fn link<'a>(node: Node<'a, 'a>, reading: &mut Reading<'a>) -> Option<Link> {
     let name = reading.required(node, "name")?;
     let inertial = reading.child(node, "inertial").and_then(|inertial| mass_data(inertial, reading));
-    Some(Link { name, at: reading.at(node), inertial, held: 0.0 })
+    Some(Link { name, at: reading.at(node), inertial, mass_notes: Vec::new(), held: 0.0 })
 }
 
 /// Mass data, turned into the axes of the link.

@@ -92,7 +92,8 @@ const OTHER_STARTS: [f64; 10] = [-0.5, 2.0, -1.0, 3.0, -2.0, 5.0, -4.0, 9.0, -8.
 ///
 /// # Errors
 /// [`ProjectionError`] when corrections are undefined, or none of the starts leads to the constraints: with the
-/// residual of the given state, and the smallest one where a search was given up.
+/// residual of the given state, and the smallest one where a search was given up. Where the constraints hold and their
+/// gradients vanish, as that of a square does, it says so.
 pub fn project<S: ConstrainedSystem>(
     system: &S,
     t: S::Scalar,
@@ -161,7 +162,7 @@ impl<T: Real, R, C, M, N, F> ProjectionSearch<T, R, C, M, N, F> {
         F: Fn(&X) -> bool,
     {
         let failed = match self.settle(start) {
-            Err(error) if error.failure == ProjectionFailure::NotConverged => error,
+            Err(error) if error.failure != ProjectionFailure::NonFinite => error,
             settled => return settled,
         };
         let first = (self.correction)(&start, &(self.residual)(&start));
@@ -169,7 +170,11 @@ impl<T: Real, R, C, M, N, F> ProjectionSearch<T, R, C, M, N, F> {
         for multiple in OTHER_STARTS {
             match self.settle((self.moved)(&start, &scaled(&first, multiple))) {
                 Ok(point) => return Ok(point),
-                Err(error) if error.residual < nearest.residual => nearest.residual = error.residual,
+                Err(error) if error.residual < nearest.residual => {
+                    let singular = error.failure == ProjectionFailure::Singular;
+                    let failure = if singular { error.failure } else { nearest.failure };
+                    nearest = ProjectionError { failure, residual: error.residual, ..nearest };
+                }
                 Err(_) => {}
             }
         }
@@ -187,7 +192,9 @@ impl<T: Real, R, C, M, N, F> ProjectionSearch<T, R, C, M, N, F> {
     {
         let mut left = (self.residual)(&point);
         let given = left.max_norm();
-        let stopped = |failure, residual: &L| {
+        let stopped = |failure, point: &X, residual: &L| {
+            let holds = (self.is_finite)(point) && self.is_rounding::<_, _, K>(point, residual);
+            let failure = if holds { ProjectionFailure::Singular } else { failure };
             Err(ProjectionError { level: self.level, failure, given, residual: residual.max_norm() })
         };
         for _ in 0..MOST_CORRECTIONS {
@@ -197,7 +204,7 @@ impl<T: Real, R, C, M, N, F> ProjectionSearch<T, R, C, M, N, F> {
             let defined = (self.is_finite)(&next) && remaining.is_finite();
             let from_defined = step.is_finite() && (self.is_finite)(&point) && left.is_finite();
             if !(defined || from_defined) {
-                return stopped(ProjectionFailure::NonFinite, &left);
+                return stopped(ProjectionFailure::NonFinite, &point, &left);
             }
             if defined && remaining.max_norm() < 0.5 * left.max_norm() {
                 (point, left) = (next, remaining);
@@ -212,16 +219,16 @@ impl<T: Real, R, C, M, N, F> ProjectionSearch<T, R, C, M, N, F> {
             (point, left) = match (resolved, straight) {
                 (false, true) if defined => match self.is_rounding::<_, _, K>(&next, &remaining) {
                     true => return Ok(next),
-                    false => return stopped(ProjectionFailure::NotConverged, &remaining),
+                    false => return stopped(ProjectionFailure::NotConverged, &next, &remaining),
                 },
                 (false, _) if defined => (next, remaining),
                 _ => match self.damped(&point, &step, &left) {
                     Some(found) => found,
-                    None => return stopped(ProjectionFailure::NotConverged, &left),
+                    None => return stopped(ProjectionFailure::NotConverged, &point, &left),
                 },
             };
         }
-        stopped(ProjectionFailure::NotConverged, &left)
+        stopped(ProjectionFailure::NotConverged, &point, &left)
     }
 
     /// Whether a move by half of the digits changes a residual by as much as is left of it: of all coordinates, so that

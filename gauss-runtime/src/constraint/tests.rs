@@ -137,6 +137,55 @@ fn constraints_without_a_common_point_are_named() {
     assert_eq!((error.level, error.failure), (ConstraintLevel::Velocity, ProjectionFailure::NonFinite));
 }
 
+/// The gradient of a square vanishes where it holds, so that no force holds it there: that is said wherever the search
+/// begins, and of no place where the constraint fails.
+#[test]
+fn squares_are_told_from_constraints_out_of_reach() {
+    let square = |position, velocity, row| Hand::<f64, 2, 1> {
+        constraints: [Constraint {
+            level: ConstraintLevel::Position,
+            position,
+            velocity,
+            row,
+            bias: |_, _, [u, _]| 2.0 * u * u,
+        }],
+        ..pendulum::<f64>(1.0)
+    };
+    let one = square(
+        |_, [x, _]| (x - 1.0) * (x - 1.0),
+        |_, [x, _], [u, _]| 2.0 * (x - 1.0) * u,
+        |_, [x, _]| [2.0 * (x - 1.0), 0.0],
+    );
+    let both =
+        square(|_, [x, y]| x * x + y * y, |_, [x, y], [u, v]| 2.0 * (x * u + y * v), |_, [x, y]| [2.0 * x, 2.0 * y]);
+    let rest = SVector::zeros();
+    for (system, starts) in [
+        (one, [[1.0, 0.0], [0.0, 0.0], [1.5, 0.3], [-7.0, 0.3]]),
+        (both, [[0.0, 0.0], [1.0, 0.0], [1.5, 0.3], [-7.0, 0.3]]),
+    ] {
+        for start in starts {
+            let error = system.project(0.0, &SVector::from(start), &rest).expect_err("nothing holds it");
+            assert_eq!(
+                (error.level, error.failure),
+                (ConstraintLevel::Position, ProjectionFailure::Singular),
+                "{start:?}"
+            );
+            assert!(
+                error.residual <= f64::EPSILON
+                    && error.given == system.position_residual(0.0, &SVector::from(start)).amax()
+            );
+            let text = error.to_string();
+            assert!(text.contains("the constraints hold") && text.contains("gradient that vanishes"), "{text}");
+        }
+    }
+    // Nowhere zero, whatever its gradient is at its least.
+    let never = square(|_, [x, _]| x * x + 1.0, |_, [x, _], [u, _]| 2.0 * x * u, |_, [x, _]| [2.0 * x, 0.0]);
+    for start in [0.0, 1.0, 1.5] {
+        let error = never.project(0.0, &SVector::from([start, 0.0]), &rest).expect_err("is not there");
+        assert!(error.failure != ProjectionFailure::Singular && error.residual >= 1.0, "{error:?}");
+    }
+}
+
 /// `sin x + x/20 − ½` has one real zero beyond hills that do not reach it.
 fn waves() -> Hand<f64, 2, 1> {
     let position = |_, [x, _]: [f64; 2]| x.sin() + 0.05 * x - 0.5;

@@ -110,7 +110,11 @@ pub const COLUMNS: [(&str, &str, &str); 22] = [
         "contact in steps",
         "`contact_steps(h)` of a `Simulation`, `ContactStepper`; the scene has contacts as well",
     ),
-    ("one", "one step at a time", "`stepper` of a `Simulation`; `OneStep::step` of a method, without a run"),
+    (
+        "one",
+        "one step at a time",
+        "`stepper` of a `Simulation`, in Python of a kernel; `OneStep::step` of a method, without a run",
+    ),
     ("lan", "lanes", "several at once in packs: `Batch` of `gauss-batch`, `ContactLanes`"),
     ("thr", "threads", "many on all threads: `run_on_all_threads`, `ContactEnsemble`"),
     ("at", "between samples", "states at any time of a run: `at`"),

@@ -5,6 +5,7 @@ mod contact_events;
 mod contact_rows;
 mod contact_steps;
 mod contacts;
+mod control;
 mod one;
 mod outcome;
 mod request;
@@ -14,11 +15,12 @@ mod watching;
 
 pub use causes::words;
 #[cfg(feature = "loaded")]
-#[cfg(feature = "loaded")]
 pub use contacts::{at as in_contact, run as touching};
+#[cfg(feature = "loaded")]
+pub use control::{lacks, no_contacts};
 pub use one::Methods;
 #[cfg(feature = "loaded")]
-pub use one::{lacks, no_contacts, smooth};
+pub use one::smooth;
 pub use outcome::{Event, Happening, InContact, KINDS, Outcome, Touched, column_names};
 pub use request::{Control, Effect, Function, Held, Input, Jumped, Request, Table, Until, Watched, looking};
 pub use stepper::AnyStepper;

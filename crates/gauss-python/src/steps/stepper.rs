@@ -11,7 +11,7 @@ use gauss_runtime::integrate::{
 };
 use gauss_runtime::prelude::*;
 
-use super::one::method;
+use super::control::method;
 use super::outcome::row;
 use super::request::{Input, Request, Watched};
 use super::stoppable::Stoppable;

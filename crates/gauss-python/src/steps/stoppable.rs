@@ -6,13 +6,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use gauss_runtime::prelude::*;
 
-/// A system that somebody else has, or its own.
-enum Held<'a, S> {
+/// The system of somebody else, or one of its own.
+enum Owner<'a, S> {
     Lent(&'a S),
     Own(S),
 }
 
-impl<S> Deref for Held<'_, S> {
+impl<S> Deref for Owner<'_, S> {
     type Target = S;
 
     fn deref(&self) -> &S {
@@ -25,7 +25,7 @@ impl<S> Deref for Held<'_, S> {
 
 /// The system, and whether it shall stop.
 pub struct Stoppable<'a, S> {
-    system: Held<'a, S>,
+    system: Owner<'a, S>,
     /// Nobody stops one that has none.
     stop: Option<&'a AtomicBool>,
     over: AtomicBool,
@@ -34,12 +34,12 @@ pub struct Stoppable<'a, S> {
 impl<'a, S> Stoppable<'a, S> {
     /// A system that goes on until the flag is set, which many of them may share.
     pub fn new(system: &'a S, stop: &'a AtomicBool) -> Self {
-        Self { system: Held::Lent(system), stop: Some(stop), over: AtomicBool::new(false) }
+        Self { system: Owner::Lent(system), stop: Some(stop), over: AtomicBool::new(false) }
     }
 
     /// A system that goes on as long as it is asked to.
     pub fn own(system: S) -> Self {
-        Self { system: Held::Own(system), stop: None, over: AtomicBool::new(false) }
+        Self { system: Owner::Own(system), stop: None, over: AtomicBool::new(false) }
     }
 
     /// Ends the run: whether it was told to stop. States between steps are made by the system, which moves on for that.

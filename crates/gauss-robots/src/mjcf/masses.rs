@@ -8,7 +8,7 @@ use super::bounds::diagonal_of;
 use super::rotations::to_direction;
 use super::shells::area_and_moments;
 use super::{File, Geoms};
-use crate::description::Inertial;
+use crate::description::{Inertial, Note};
 use crate::rotation::{Rotation, Triple, turned_tensor};
 use crate::structure::{placed, sum};
 use crate::xml::shown;
@@ -50,6 +50,8 @@ impl<'a> File<'a> {
         let Some(wanted) = self.total_mass else { return };
         let own = || self.description.links.iter().filter_map(|link| link.inertial);
         let sum: f64 = own().map(|own| own.mass).sum();
+        // Each has a part in all.
+        self.reading.notes.extend(self.description.links.iter_mut().flat_map(|link| link.mass_notes.drain(..)));
         if sum > 0.0 {
             for own in self.description.links.iter_mut().filter_map(|link| link.inertial.as_mut()) {
                 *own = own.scaled(wanted / sum);
@@ -121,16 +123,17 @@ impl<'a> File<'a> {
             None => (place, rotation.matrix, None),
         };
         let Some((volume, moments)) = measure(kind, &size, half) else {
-            let why = if is_shell && kind == "ellipsoid" {
-                "the shell of an `ellipsoid` has no area in closed form; write an <inertial>".to_owned()
-            } else {
-                let shell = if is_shell { "shell" } else { "<geom>" };
-                format!("a {shell} of type `{kind}` needs its mesh or sizes")
-            };
-            let text = format!("the mass of {} is not read: {why}", shown(node));
-            self.reading.ignored(node, text);
+            let shell = if is_shell { "shell" } else { "<geom>" };
+            let text =
+                format!("the mass of {} is not read: a {shell} of type `{kind}` needs its mesh or sizes", shown(node));
+            self.mass_notes.push(Note::ignored(self.reading.at(node), "geom", text));
             return None;
         };
+        if is_shell && kind == "ellipsoid" {
+            let text =
+                format!("the mass of {} is that of its surface; MuJoCo approximates it, and its moments", shown(node));
+            self.mass_notes.push(Note::told(self.reading.at(node), text).about("shells of ellipsoids"));
+        }
         let mass = own.map_or(volume * density, |[mass]| mass);
         let inertia = turned_tensor(&matrix, &diagonal_of(moments.map(|moment| moment * mass)));
         Some(Inertial { mass, center, inertia })

@@ -20,7 +20,7 @@ impl<'a> File<'a> {
         if kind != "mesh" {
             self.reading.fault(
                 geom,
-                format!("its mass is that of a `{kind}` fitted to a mesh, which is not read; write `mass`"),
+                format!("its mass is that of a `{kind}` fitted to a mesh, which is not read; write an <inertial>"),
             );
             return None;
         }

@@ -53,7 +53,7 @@ use self::disabled::Disabled;
 use self::grammar::refuse_other_types;
 use self::reference::ELEMENTS;
 use self::rotations::{Angles, ORIENTATION};
-use super::description::{Description, Drive, Fault, Inertial, Joint, JointKind, Link};
+use super::description::{Description, Drive, Fault, Inertial, Joint, JointKind, Link, Note};
 use super::rotation::{Matrix, Rotation, Triple, multiply, turned};
 use super::text::Text;
 use super::xml::{Reading, own_descendants, own_elements, parse, shown};
@@ -101,6 +101,7 @@ fn model(text: &Text, around: Option<(&str, &File<'_>)>) -> Result<Model, Vec<Fa
         sites: Vec::new(),
         controls: Vec::new(),
         meshes: Vec::new(),
+        mass_notes: Vec::new(),
         is_part: around.is_some(),
         prefix: around.map_or("", |(prefix, _)| prefix).to_owned(),
         attached: Vec::new(),
@@ -175,6 +176,8 @@ struct File<'a> {
     controls: Vec<Option<usize>>,
     /// Meshes that were read, of density one; `None` of those with a mistake.
     meshes: Vec<(String, Option<Inertial>)>,
+    /// Notes on the masses of geoms of the body that is being read.
+    mass_notes: Vec<Note>,
     /// Another file attaches it.
     is_part: bool,
     /// Before the names of bodies that have none.
@@ -207,12 +210,7 @@ impl<'a> File<'a> {
     fn world(&mut self, node: Node<'a, 'a>) {
         let name = WORLD.to_owned();
         if !self.description.links.iter().any(|link| link.name == name) {
-            self.description.links.push(Link {
-                name: name.clone(),
-                at: self.reading.at(node),
-                inertial: None,
-                held: 0.0,
-            });
+            self.link(name.clone(), node, None);
         }
         self.inside(node, &name, None, &([0.0; 3], Rotation::none().matrix));
     }
@@ -306,7 +304,8 @@ impl<'a> File<'a> {
     }
 
     fn link(&mut self, name: String, node: Node<'a, 'a>, inertial: Option<Inertial>) {
-        self.description.links.push(Link { name, at: self.reading.at(node), inertial, held: 0.0 });
+        let mass_notes = std::mem::take(&mut self.mass_notes);
+        self.description.links.push(Link { name, at: self.reading.at(node), inertial, mass_notes, held: 0.0 });
     }
 
     /// A joint without laws.

@@ -199,10 +199,19 @@ impl Scope {
         }))
     }
 
+    /// Whether an expression may name it: the definition that is being read is none of those that it is made of.
+    fn is_usable(&self, meaning: &Meaning) -> bool {
+        match meaning {
+            Meaning::Unusable(_) => false,
+            Meaning::Definition(index) => *index != self.definitions.len(),
+            _ => true,
+        }
+    }
+
     /// The nearest usable name. A single letter is near to nothing but its other case: any two letters are one edit
     /// apart.
     fn nearest(&self, word: &str) -> Option<(&str, &Meaning)> {
-        let usable = self.names.iter().filter(|(_, meaning)| !matches!(meaning, Meaning::Unusable(_)));
+        let usable = self.names.iter().filter(|(_, meaning)| self.is_usable(meaning));
         let single = word.chars().count() == 1;
         let table: Vec<(&str, &Meaning)> = usable
             .filter(|(name, _)| !single || name.eq_ignore_ascii_case(word))
@@ -228,7 +237,7 @@ impl Scope {
             let table: Vec<(&str, ())> = self
                 .names
                 .iter()
-                .filter(|(_, meaning)| meaning.noun() == noun && expected(meaning))
+                .filter(|(_, meaning)| meaning.noun() == noun && self.is_usable(meaning) && expected(meaning))
                 .map(|(name, _)| (name.as_str(), ()))
                 .collect();
             if !table.is_empty() {
@@ -241,7 +250,7 @@ impl Scope {
         match parts.split_last() {
             Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
             Some((last, _)) => last.clone(),
-            None => "a number".into(),
+            None => "a number or the name of a field".into(),
         }
     }
 }

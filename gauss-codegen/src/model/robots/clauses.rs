@@ -251,11 +251,7 @@ impl<'a> Robot<'a> {
         };
         let mut carries = vec![false; self.links.len()];
         for start in (0..self.links.len()).filter(|&link| has(link)) {
-            let mut next = Some(start);
-            while let Some(link) = next.filter(|&link| !carries[link]) {
-                carries[link] = true;
-                next = self.structure.parent_of[link];
-            }
+            self.structure.way_to_root(start).for_each(|link| carries[link] = true);
         }
         let of_file = self.armatures();
         let geared: HashSet<&Ident> = of_file
@@ -276,9 +272,11 @@ impl<'a> Robot<'a> {
             !carries && moves_itself && !is_geared(link)
         };
         let fault = |(link, _): (usize, bool)| {
+            let hangs = |&other: &usize| self.structure.way_to_root(other).any(|on| on == link);
+            let notes = (0..self.links.len()).filter(hangs).flat_map(|own| &self.description.links[own].mass_notes);
+            let unread: String =
+                notes.filter(|note| note.ignored.is_some()).map(|note| format!(" ({})", note.text)).collect();
             let link = &self.description.links[link];
-            let unread = self.notes.iter().filter(|note| note.text.starts_with("the mass of "));
-            let unread: String = unread.map(|note| format!(" ({})", note.text)).collect();
             let message = format!(
                 "the link `{}` moves, and neither it nor what hangs on it has an <inertial>; add one, give its joint an \
                  `armature`, or fix it{unread}",
@@ -358,7 +356,14 @@ impl<'a> Robot<'a> {
         }
     }
 
+    /// Notes on masses of links that move by those of the file.
+    fn mass_notes(&self) -> Vec<Note> {
+        let links = (0..self.links.len()).filter(|&link| self.moves(link) && !self.in_field[link]);
+        links.flat_map(|link| self.description.links[link].mass_notes.clone()).collect()
+    }
+
     fn described(&mut self, file: &File, text: &Text) -> RobotFile {
+        self.notes.extend(self.mass_notes());
         self.notes = Note::gathered(std::mem::take(&mut self.notes));
         let known = |what: &String| self.clauses.ignored.iter().any(|word| word == what.as_str());
         let names = text.names();

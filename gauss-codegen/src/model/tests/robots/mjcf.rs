@@ -136,6 +136,43 @@ fn what_is_told_and_refused() {
     }
 }
 
+/// A mass that is not read is told of the link that has it, where it has a part in the motion: not of what is fixed to
+/// the world, nor of what has an <inertial>, nor of a link whose mass data are a field.
+#[test]
+fn masses_that_are_not_read_are_told_where_they_matter() {
+    let geom = "<geom type=\"mesh\"/>";
+    let moving = |name: &str, inside: &str| format!("<body name=\"{name}\">{inside}</body>");
+    let all = format!(
+        "<joint/>{}</body>{}{}</worldbody>",
+        moving("a", &format!("<joint/>{geom}")),
+        moving("b", &format!("<joint/>{geom}")),
+        moving("c", &format!("{geom}{}", moving("d", &format!("<joint/>{INERTIAL}{geom}"))))
+    );
+    let message = |link: &str, column: usize| {
+        format!(
+            "3:{column}: the link `{link}` moves, and neither it nor what hangs on it has an <inertial>; add one, give \
+             its joint an `armature`, or fix it (the mass of <geom> is not read: a <geom> of type `mesh` needs its mesh \
+             or sizes)"
+        )
+    };
+    assert_eq!(reported(&all, ""), [message("a", 9), message("b", 65)]);
+
+    let sphere = "<geom size=\"1\"/>";
+    let told = |inside: &str, field: &str| {
+        let text = format!("<mujoco>\n<worldbody><body name=\"arm\">{INERTIAL}\n{inside}\n</mujoco>");
+        let model =
+            read(&Scratch::called(&text, "xml").of("", field)).unwrap_or_else(|error| panic!("{text}: {error}"));
+        let remarks = model.item.described.expect("a file").remarks.into_iter();
+        remarks.filter(|remark| remark.ignored && remark.text.contains("is not read")).count()
+    };
+    let of = |parts: &str| format!("<joint/></body>{parts}</worldbody>");
+    assert_eq!(told(&of(&moving("a", &format!("<joint/>{sphere}{geom}"))), ""), 1);
+    assert_eq!(told(&of(&moving("a", &format!("<joint/>{sphere}{geom}"))), "a: RigidBodyInertia<f64>"), 0);
+    assert_eq!(told(&of(&moving("a", &format!("<joint/>{INERTIAL}{geom}"))), ""), 0);
+    assert_eq!(told(&of(&moving("a", geom)), ""), 0);
+    assert_eq!(told(&of(&moving("a", &format!("{geom}{}", moving("b", &format!("<joint/>{sphere}"))))), ""), 0);
+}
+
 fn model(inside: &str, clauses: &str) -> Model {
     let text = format!("<mujoco>\n<worldbody><body name=\"arm\">{INERTIAL}\n{inside}\n</mujoco>");
     read(&Scratch::called(&text, "xml").of(clauses, "")).unwrap_or_else(|error| panic!("{text}: {error}"))

@@ -56,7 +56,7 @@ fn order_and_use() {
             (
                 "c",
                 "unknown name `c`; declare it by `input(c)` if it arrives at run time, or write a coordinate (`x` or \
-                 `theta`), a speed (`v` or `w`), a definition (`a`, `b` or `d`), a field (`l` or `k`), a body (`cart` or \
+                 `theta`), a speed (`v` or `w`), a definition (`a` or `d`), a field (`l` or `k`), a body (`cart` or \
                  `rod`) or `t`",
             ),
             ("d", "`d` is defined by itself; define it without `d`"),
@@ -164,7 +164,7 @@ fn circles() {
             (
                 "u",
                 "unknown name `u`; declare it by `input(u)` if it arrives at run time, or write a coordinate (`x` or \
-                 `theta`), a speed (`v` or `w`), a definition (`a`, `b`, `c` or `d`), a field (`l` or `k`), a body (`cart` \
+                 `theta`), a speed (`v` or `w`), a definition (`a`, `c` or `d`), a field (`l` or `k`), a body (`cart` \
                  or `rod`) or `t`",
             ),
         ],

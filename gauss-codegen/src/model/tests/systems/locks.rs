@@ -149,3 +149,30 @@ fn rotations_poses_and_modes_are_not_locked() {
         "#[gauss(motion = planar, lock(x = 0))] struct Body { #[gauss(mass)] m: f64, #[gauss(inertia)] j: f64 }";
     check(of_chart, &[("x", "`x` is no coordinate, and a lock holds one; there is none with a name and one number")]);
 }
+
+/// The value of a lock is not made of the lock: advice that leads there would lead into a circle. So is that of every
+/// definition.
+#[test]
+fn advice_for_unknown_names_leads_to_no_circle() {
+    let value = |value: &str, message: &str| {
+        check(&arm(&format!("define(bend = 0.5), lock(knee = {value})"), ""), &[(value, message)]);
+    };
+    value("q", "unknown name `q`; expected a definition (`bend`) or a field (`m` or `l`)");
+    value("knees", "unknown name `knees`; expected a definition (`bend`) or a field (`m` or `l`)");
+    value("bends", "unknown name `bends`; did you mean the definition `bend`?");
+    let alone = "#[gauss(coordinates(x, y), particle(position = [x, y, 0], mass = 1), CLAUSE)] struct Dot {}";
+    for (clause, token, message) in [
+        ("lock(y = q)", "q", "unknown name `q`; expected a number or the name of a field"),
+        ("lock(y = Y)", "Y", "unknown name `Y`; expected a number or the name of a field"),
+        ("motion(y = q)", "q", "unknown name `q`; expected `t`"),
+        ("lock(q = 1)", "q", "`q` is no coordinate, and a lock holds one; expected `x` or `y`"),
+        (
+            "define(w = q)",
+            "q",
+            "unknown name `q`; declare it by `input(q)` if it arrives at run time, or write a coordinate (`x` or `y`) or \
+             `t`",
+        ),
+    ] {
+        check(&alone.replace("CLAUSE", clause), &[(token, message)]);
+    }
+}
