@@ -55,12 +55,12 @@ by_method! {
     /// moves on by what makes digits cancel: parameters, speeds, rates and inputs of sizes up to 10⁹ apart, coordinates
     /// from 10⁻⁹ to 10⁷, angles near quarter turns, sums of the scene and of momenta as near zero as 10⁻⁹ of their
     /// terms, masses of links and lengths between them that grow by up to 10⁶ from one to the next, in both directions.
-    /// Masses are positive and moments of inertia those of a body. Where the masses of a chain are fields, `worst` is that
-    /// of masses which grow so: from four links on hardly a digit is left. It says nothing of links that are alike, of
-    /// which `median` does; masses that are numbers of the scene stay what they are. A scene of ordinary numbers has a
-    /// loss of about `median`; the kernel's documentation names the numbers that lead to `worst`. A function of the
-    /// scene's own and a table are taken for functions that are rounded once: what they lose inside is theirs, and not in
-    /// the figure.
+    /// Masses are positive and moments of inertia those of a body. Where the masses of a chain are fields, `worst` is
+    /// that of masses which grow so: from four links on hardly a digit is left. It says nothing of links that are
+    /// alike, of which `median` does; masses that are numbers of the scene stay what they are. A scene of ordinary
+    /// numbers has a loss of about `median`; the kernel's documentation names the numbers that lead to `worst`. A
+    /// function of the scene's own and a table are taken for functions that are rounded once: what they lose inside is
+    /// theirs, and not in the figure.
     /// Derivatives and `evaluate` are tried where the other methods lose most. A figure is an estimate to first order
     /// of the largest loss at the states that the search tried: right within a factor of ten where it was compared with
     /// 106 digits, and other states may be worse. The scalar of the crate `gauss-bounded` bounds the loss at a given

@@ -35,17 +35,18 @@
 //! `memory` (the only access to arrays by address), `methods` (methods of a kernel over rows), `steps` (one run:
 //! numbers in, columns out), `scene` (a struct as Python sees it), `runs` (many), `kernels` (its kernels, their types
 //! forgotten), and what Python sees: `errors`, `arrays`, `tuples`, `columns`, `own`, `call`, `parameters`, `class` with
-//! `of_kernels`, `states`, `stepping` (a run step by step) and `simulation`, which knows `calls` (functions of Python in
-//! a run) and `given` (what a run is given), `run`, `page` (a run in a browser), `ends`, `stubs`, `jax` (the door to
-//! XLA), `make`. With the feature `loaded` models that come at run time are such scenes as well.
+//! `of_kernels`, `states`, `stepping` (a run step by step) and `simulation`, which knows `calls` (functions of Python
+//! in a run) and `given` (what a run is given), `run`, `page` (a run in a browser), `ends`, `stubs`, `jax` (the door
+//! to XLA), `make`. With the feature `loaded` models that come at run time are such scenes as well.
 
 #![deny(missing_docs, unsafe_code)]
 
 // `memory` (the only access by address), `methods` (`words`: the list; `table`: each as a loop over rows), `steps` (one
 // run, of `contacts` too), `scene` (a struct), `runs` (many), `kernels` (in one lane and in eight); what Python sees:
 // `arrays`, `own` (parameters of rows), `call`, `parameters`, `class`, `states` (structured arrays), `calls` and
-// `given` (functions of Python, what a run is given), `simulation`, `stepping`, `run` with `plot.py` and `page`, `ends`,
-// `columns`, `tuples`, `threads`, `errors`, `stubs`, `jax` (`abi`: the calls of XLA; `door.py`: functions of JAX), `make`.
+// `given` (functions of Python, what a run is given), `simulation`, `stepping`, `run` with `plot.py` and `page`,
+// `ends`, `columns`, `tuples`, `threads`, `errors`, `stubs`, `jax` (`abi`: the calls of XLA; `door.py`: functions of
+// JAX), `make`.
 // `loaded`: a model at run time behind the same two traits, `AnyScene` and `AnyKernel`: `scene`, `rows` (methods),
 // `runs` (in the smallest room that it fits into). `examples/python`: a package, its tests and a notebook.
 mod arrays;
