@@ -13,9 +13,11 @@
 //! | [`exports`] | the functions that the browser calls |
 //! | [`page`], [`build`] | the page, and the kernels in it |
 //! | [`site`] | the front page of the site, of which `gauss-site` builds all |
+//! | [`links`] | what of the site leads nowhere |
 
 pub mod build;
 pub mod exports;
+pub mod links;
 pub mod live;
 pub mod page;
 pub mod scene;

@@ -115,14 +115,3 @@ fn sentence(markdown: &str) -> String {
     let parts = left.split('`').enumerate();
     parts.map(|(n, part)| if n % 2 == 1 { format!("<code>{}</code>", text(part)) } else { text(part) }).collect()
 }
-
-/// The files within the folder of a page that it leads to and that are not there.
-#[must_use]
-pub fn broken_links(page: &str, folder: &Path) -> Vec<String> {
-    let ends = page.split("href=\"").chain(page.split("src=\"")).filter_map(|rest| rest.split_once('"'));
-    let own = ends.map(|(link, _)| link).filter(|link| !link.contains([':', '<', ' ']) && !link.starts_with('#'));
-    let mut broken: Vec<String> = own.filter(|link| !folder.join(link).exists()).map(str::to_owned).collect();
-    broken.sort();
-    broken.dedup();
-    broken
-}

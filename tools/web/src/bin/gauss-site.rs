@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs, io};
 
-use gauss_web::{build, page, site};
+use gauss_web::{build, links, page, site};
 
 /// Crates whose reference is on the site.
 const CRATES: &[&str] = &[
@@ -28,6 +28,10 @@ const CRATES: &[&str] = &[
 const FEATURES: &str = "gauss-runtime/wide,gauss-runtime/serde,gauss-runtime/urdf,gauss-runtime/mjcf,gauss-runtime/modes,\
     gauss-batch/rayon,gauss-playback/contact,gauss-adapters/num-dual,gauss-adapters/ode_solvers,\
     gauss-adapters/differential-equations,gauss-adapters/mint";
+/// Where the pages of rustdoc lead to as their front page.
+const REFERENCE: &str = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Gauss: reference</title>\n\
+    <meta http-equiv=\"refresh\" content=\"0; url=gauss_runtime/index.html\"></head>\n\
+    <body><a href=\"gauss_runtime/index.html\">gauss_runtime</a></body></html>\n";
 /// The section of examples that write tables for a terminal, some of them for hours.
 const NUMBERS: &str = "Numbers";
 
@@ -37,9 +41,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     fs::create_dir_all(&folder)?;
     let folder = folder.canonicalize()?;
 
-    let mut book = Command::new("mdbook");
-    run(book.arg("build").arg(root.join("guide")).arg("--dest-dir").arg(folder.join("guide")))
-        .map_err(|error| format!("{error}; `cargo install mdbook mdbook-katex` installs what makes the guide"))?;
+    guide(&root, &folder)?;
     reference(&root, &folder)?;
     gauss_files::write(folder.join("live.html"), page::html(&build::kernels(&page::SMALL)?))?;
 
@@ -55,27 +57,70 @@ fn main() -> Result<(), Box<dyn Error>> {
     for section in sections.iter().filter(|section| section.title != NUMBERS) {
         for example in &section.examples {
             let own = folder.join("examples").join(&example.name);
+            emptied(&own)?;
             let kind = if example.name == "gauss-first" { "--bin" } else { "--example" };
             run(cargo(&root).args(["run", "--quiet", kind, &example.name, "--"]).arg(own))?;
         }
     }
 
-    let front = site::html(&sections, &folder)?;
-    let broken = site::broken_links(&front, &folder);
-    if !broken.is_empty() {
-        return Err(format!("the front page leads to what is not there: {}", broken.join(", ")).into());
+    gauss_files::write(folder.join("index.html"), site::html(&sections, &folder)?)?;
+    let faults = links::faults(&folder)?;
+    if !faults.is_empty() {
+        return Err(format!("the site is not whole:\n{}", faults.join("\n")).into());
     }
-    gauss_files::write(folder.join("index.html"), front)?;
     println!("written: {}", folder.join("index.html").display());
     Ok(())
 }
 
+/// The guide, whose title leads to the front page.
+fn guide(root: &Path, folder: &Path) -> Result<(), Box<dyn Error>> {
+    let own = folder.join("guide");
+    let mut book = Command::new("mdbook");
+    run(book.arg("build").arg(root.join("guide")).arg("--dest-dir").arg(&own))
+        .map_err(|error| format!("{error}; `cargo install mdbook mdbook-katex` installs what makes the guide"))?;
+    let title = "<h1 class=\"menu-title\">Gauss</h1>";
+    let home = "<h1 class=\"menu-title\"><a href=\"../index.html\" title=\"The front page\">Gauss</a></h1>";
+    let mut pages = 0;
+    for entry in fs::read_dir(&own)? {
+        let file = entry?.path();
+        if file.extension().is_some_and(|kind| kind == "html") {
+            let page = fs::read_to_string(&file)?;
+            pages += u32::from(page.contains(title));
+            gauss_files::write(&file, page.replace(title, home))?;
+        }
+    }
+    if pages == 0 {
+        Err("pages of mdBook have no title any more that can lead to the front page".into())
+    } else {
+        Ok(())
+    }
+}
+
 /// The pages of rustdoc.
 fn reference(root: &Path, folder: &Path) -> Result<(), Box<dyn Error>> {
-    let crates = CRATES.iter().flat_map(|name| ["-p".to_owned(), format!("gauss-{name}")]);
-    run(cargo(root).args(["doc", "--locked", "--no-deps", "--features", FEATURES]).args(crates))?;
     let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
-    Ok(copy(&target.join("doc"), &folder.join("reference"))?)
+    let (made, own) = (target.join("doc"), folder.join("reference"));
+    // rustdoc leads to another crate where that one's folder is there, and Cargo takes a folder away while it is made
+    // anew. So all are there beforehand, and one is made at a time; what they need is compiled before, by all cores.
+    emptied(&made)?;
+    for name in CRATES {
+        fs::create_dir_all(made.join(format!("gauss_{name}")))?;
+    }
+    for command in [&["check"][..], &["doc", "--no-deps", "--jobs=1"]] {
+        let crates = CRATES.iter().flat_map(|name| ["-p".to_owned(), format!("gauss-{name}")]);
+        run(cargo(root).args(command).args(["--locked", "--features", FEATURES]).args(crates))?;
+    }
+    emptied(&own)?;
+    copy(&made, &own)?;
+    Ok(gauss_files::write(own.join("index.html"), REFERENCE)?)
+}
+
+/// Takes away what an earlier run has left in a folder.
+fn emptied(folder: &Path) -> io::Result<()> {
+    match fs::remove_dir_all(folder) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
 }
 
 fn cargo(root: &Path) -> Command {
