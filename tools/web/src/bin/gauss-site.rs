@@ -1,9 +1,11 @@
 //! Builds the site: `cargo run -p gauss-web --bin gauss-site [-- FOLDER]`, by default `target/site`. It needs mdBook
-//! with KaTeX (`cargo install mdbook mdbook-katex`) and `rustup target add wasm32-unknown-unknown`.
+//! with KaTeX (`cargo install mdbook mdbook-katex`) and `rustup target add wasm32-unknown-unknown`. Studies are of 200
+//! runs, or as many as `RUNS` says.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::Instant;
 use std::{env, fs, io};
 
 use gauss_web::{build, links, page, site};
@@ -32,6 +34,9 @@ const FEATURES: &str = "gauss-runtime/wide,gauss-runtime/serde,gauss-runtime/urd
 const REFERENCE: &str = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Gauss: reference</title>\n\
     <meta http-equiv=\"refresh\" content=\"0; url=gauss_runtime/index.html\"></head>\n\
     <body><a href=\"gauss_runtime/index.html\">gauss_runtime</a></body></html>\n";
+/// Runs of studies that draw pictures, unless `RUNS` says how many: of the numbers that their texts name some examples
+/// would take half an hour.
+const RUNS: &str = "200";
 /// The section of examples that write tables for a terminal, some of them for hours.
 const NUMBERS: &str = "Numbers";
 
@@ -58,8 +63,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         for example in &section.examples {
             let own = folder.join("examples").join(&example.name);
             emptied(&own)?;
+            let clock = Instant::now();
             let kind = if example.name == "gauss-first" { "--bin" } else { "--example" };
-            run(cargo(&root).args(["run", "--quiet", kind, &example.name, "--"]).arg(own))?;
+            let runs = env::var("RUNS").unwrap_or_else(|_| RUNS.to_owned());
+            run(cargo(&root).env("RUNS", runs).args(["run", "--quiet", kind, &example.name, "--"]).arg(own))?;
+            println!("{}: {:.0} s", example.name, clock.elapsed().as_secs_f64());
         }
     }
 
