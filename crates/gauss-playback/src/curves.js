@@ -9,10 +9,15 @@ const ticks = (low, high, count) => {
   const step = [1, 2, 5, 10].find((s) => s * power >= raw) * power;
   const all = [];
   for (let n = Math.ceil(low / step); n * step <= high * (1 + 1e-12); n++) all.push(n * step);
-  return { all, digits: Math.max(0, -Math.floor(Math.log10(step) + 1e-9)) };
+  return { all, digits: -Math.floor(Math.log10(step) + 1e-9) };
 };
-const label = (value, digits) =>
-  digits > 4 || Math.abs(value) >= 1e6 ? value.toExponential(2).replaceAll("-", "−") : value.toFixed(digits).replace("-", "−");
+// With as many digits as tell it from its neighbours.
+const label = (value, digits) => {
+  if (value === 0 && digits > 4) return "0";
+  const power = Math.floor(Math.log10(Math.abs(value)) + 1e-9), isPlain = digits <= 4 && Math.abs(value) < 1e6;
+  const text = isPlain ? value.toFixed(Math.max(0, digits)) : value.toExponential(Math.max(0, power + digits));
+  return text.replace("e+0", "").replaceAll("-", "−");
+};
 
 class Curves {
   constructor(panel, times, seek, { over = "t", least = 1 } = {}) {
