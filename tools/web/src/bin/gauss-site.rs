@@ -66,7 +66,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             let clock = Instant::now();
             let kind = if example.name == "gauss-first" { "--bin" } else { "--example" };
             let runs = env::var("RUNS").unwrap_or_else(|_| RUNS.to_owned());
-            run(cargo(&root).env("RUNS", runs).args(["run", "--quiet", kind, &example.name, "--"]).arg(own))?;
+            run(cargo(&root).env("RUNS", runs).args(["run", "--quiet", kind, &example.name, "--"]).arg(&own))?;
+            narrow_plots(&own)?;
             println!("{}: {:.0} s", example.name, clock.elapsed().as_secs_f64());
         }
     }
@@ -77,6 +78,22 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err(format!("the site is not whole:\n{}", faults.join("\n")).into());
     }
     println!("written: {}", folder.join("index.html").display());
+    Ok(())
+}
+
+/// Fits plots of a folder into windows that are narrower than they are, as far as their axes can be read.
+fn narrow_plots(folder: &Path) -> io::Result<()> {
+    let entries = match fs::read_dir(folder) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        entries => entries?,
+    };
+    for entry in entries {
+        let file = entry?.path();
+        if file.extension().is_some_and(|kind| kind == "svg") {
+            let style = "<svg style=\"max-width: max(100%, 800px); height: auto\" ";
+            gauss_files::write(&file, fs::read_to_string(&file)?.replacen("<svg ", style, 1))?;
+        }
+    }
     Ok(())
 }
 
