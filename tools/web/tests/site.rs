@@ -85,7 +85,8 @@ fn links_that_lead_nowhere_are_found() -> Result<(), Box<dyn Error>> {
     let head = "<!doctype html><title>A page</title>";
     let good = format!(
         "{head}<h1 id='top'>1 > 0</h1><a class=\"a > b\" href=\"sub/b.html#there\">b</a><a href='#top'>up</a>
-        <a href=\"sub/\">folder</a><a href=\"with%20space.svg?x=1&amp;y=2\">plot</a>
+        <a href=\"sub/\">folder</a>
+        <a href=\"with%20space.svg?x=1&amp;y=2\">plot</a>
         <img alt=\"href='no'\" src=\"with space.svg\">
         <a href=\"https://example.org/nowhere.html\">elsewhere</a><!-- <a href=\"comment.html\"> -->
         <script>const link = '<a href=\"${{name}}\">';</script><pre>a &lt; b href=\"text.html\"</pre>"

@@ -31,7 +31,8 @@ const FEATURES: &str = "gauss-runtime/wide,gauss-runtime/serde,gauss-runtime/urd
     gauss-batch/rayon,gauss-playback/contact,gauss-adapters/num-dual,gauss-adapters/ode_solvers,\
     gauss-adapters/differential-equations,gauss-adapters/mint";
 /// Where the pages of rustdoc lead to as their front page.
-const REFERENCE: &str = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Gauss: reference</title>\n\
+const REFERENCE: &str = "<!doctype html>\n\
+    <html lang=\"en\"><head><meta charset=\"utf-8\"><title>Gauss: reference</title>\n\
     <meta http-equiv=\"refresh\" content=\"0; url=gauss_runtime/index.html\"></head>\n\
     <body><a href=\"gauss_runtime/index.html\">gauss_runtime</a></body></html>\n";
 /// Runs of studies that draw pictures, unless `RUNS` says how many: of the numbers that their texts name some examples
@@ -59,18 +60,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     gauss_files::write(folder.join("pictures/browser.png"), fs::read(root.join("docs/browser.png"))?)?;
-    for section in sections.iter().filter(|section| section.title != NUMBERS) {
-        for example in &section.examples {
-            let own = folder.join("examples").join(&example.name);
-            emptied(&own)?;
-            let clock = Instant::now();
-            let kind = if example.name == "gauss-first" { "--bin" } else { "--example" };
-            let runs = env::var("RUNS").unwrap_or_else(|_| RUNS.to_owned());
-            run(cargo(&root).env("RUNS", runs).args(["run", "--quiet", kind, &example.name, "--"]).arg(&own))?;
-            narrow_plots(&own)?;
-            println!("{}: {:.0} s", example.name, clock.elapsed().as_secs_f64());
-        }
-    }
+    let shown = sections.iter().filter(|section| section.title != NUMBERS).flat_map(|section| &section.examples);
+    play(&root, &folder, &shown.map(|example| example.name.as_str()).collect::<Vec<_>>())?;
 
     gauss_files::write(folder.join("index.html"), site::html(&sections, &folder)?)?;
     let faults = links::faults(&folder)?;
@@ -78,6 +69,22 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err(format!("the site is not whole:\n{}", faults.join("\n")).into());
     }
     println!("written: {}", folder.join("index.html").display());
+    Ok(())
+}
+
+/// The pages and plots of examples, which are compiled together, on all cores, before the first one runs.
+fn play(root: &Path, folder: &Path, examples: &[&str]) -> Result<(), Box<dyn Error>> {
+    let target = |name| [if name == "gauss-first" { "--bin" } else { "--example" }, name];
+    run(cargo(root).args(["build", "--quiet"]).args(examples.iter().flat_map(|name| target(name))))?;
+    let runs = env::var("RUNS").unwrap_or_else(|_| RUNS.to_owned());
+    for name in examples {
+        let own = folder.join("examples").join(name);
+        emptied(&own)?;
+        let clock = Instant::now();
+        run(cargo(root).env("RUNS", &runs).args(["run", "--quiet"]).args(target(name)).arg("--").arg(&own))?;
+        narrow_plots(&own)?;
+        println!("{name}: {:.0} s", clock.elapsed().as_secs_f64());
+    }
     Ok(())
 }
 
