@@ -3,7 +3,7 @@
 use proc_macro2::Ident;
 
 use crate::algebra::{Expr, Graph, Map, Notation, Substitution};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::kernel::{DerivativeRequest, Differentiation};
 use crate::mechanics::{
     Claims, Constraints, Coordinate, Elimination, Formula, Formulas, Hessian, InertialParameter, InertialParameters,
@@ -196,6 +196,11 @@ fn wanted<'g>(kind: DerivativeKind, differentiation: Differentiation<'g>) -> Der
 
 /// The forces of inertia as a linear function of inertial parameters.
 fn regressor<'g>(clause: &Ident, system: &System<'g>, parameters: &[FieldNumber<'g>]) -> Result<Regressor<'g>> {
+    if system.scene.matter_time.is_some() {
+        let message = "masses that vary are no parameters, and what matter that leaves does depends on them, too; remove \
+                       `regressor`, or the time from mass data";
+        return Err(Error::new(clause.span(), message));
+    }
     let names = names_of(parameters);
     let inertial = InertialParameters::new(system, &names);
     // The system once more, of bodies by their first moments.
@@ -279,7 +284,8 @@ fn names_of(parameters: &[FieldNumber<'_>]) -> Map<u32, String> {
     parameters.iter().map(|parameter| (parameter.symbol.key(), parameter.name.clone())).collect()
 }
 
-/// Quaternions behind the rotations among the coordinates, and the entries of R in terms of them.
+/// Quaternions behind the rotations among the coordinates, and the entries of R in terms of them; the time for the
+/// instant of mass data.
 fn system_rotations<'g>(graph: &'g Graph, system: &System<'g>) -> (Vec<Option<[Expr<'g>; 4]>>, Map<u32, Expr<'g>>) {
     let mut definitions = Map::default();
     let coordinates = system.scene.coordinates.iter().map(|coordinate| {
@@ -290,7 +296,9 @@ fn system_rotations<'g>(graph: &'g Graph, system: &System<'g>) -> (Vec<Option<[E
         definitions.extend(symbols.zip(entries.into_iter().flatten().map(Expr::group)));
         Some(quaternion)
     });
-    (coordinates.collect(), definitions)
+    let coordinates = coordinates.collect();
+    definitions.extend(system.scene.matter_time.map(|instant| (instant.key(), system.scene.time)));
+    (coordinates, definitions)
 }
 
 /// Coordinates that are the components of one unit quaternion, or of one unit vector of the plane.

@@ -95,7 +95,7 @@ impl<'g> MassLaws<'g> {
         let of_one = |laws: Vec<MassLaw<'g>>| Group { values: Vec::new(), laws };
         let fields = provenance.item.fields.iter().enumerate().filter(|(k, _)| provenance.is_read(*k));
         let mut of_data: Vec<Group<'g>> = fields.map(|(k, field)| of_one(laws.of_field(k, field))).collect();
-        of_data.extend(provenance.mass_data.unnamed.iter().map(|value| {
+        of_data.extend(provenance.mass_data.unnamed.iter().filter(|value| value.own.is_constant()).map(|value| {
             let role = value.own.quantity;
             let rule = laws.of_role(role, value.shape, Datum::Clause(role));
             of_one(vec![MassLaw { label: role.word().to_owned(), rule }])
@@ -129,6 +129,11 @@ impl<'g> Laws<'_, 'g> {
         field.or_else(|| self.provenance.mass_data.unnamed(role).map(|_| Datum::Clause(role)))
     }
 
+    /// Whether mass data of the body without a name vary.
+    fn varies(&self) -> bool {
+        self.provenance.mass_data.unnamed.iter().any(|value| !value.own.is_constant())
+    }
+
     fn of_added_mass(&self, body: &BodyData<'g>) -> Option<(String, Vec<Expr<'g>>)> {
         let matrix = self.scene.tree.links[body.link].body()?.added_mass.as_ref()?;
         let label = self.provenance.role_name(body.name.as_ref(), Role::AddedMass);
@@ -158,6 +163,8 @@ impl<'g> Laws<'_, 'g> {
             (Role::Mass, _) if self.is_charted_body() => MassRule::Mass(datum),
             (Role::Mass, _) => MassRule::MassInSum(datum),
             (Role::DisplacedMass, _) => MassRule::NonNegative(datum),
+            // What varies is not known before the run, and an inertia stands beside it.
+            (Role::Inertia | Role::CentralInertia, _) if self.varies() => MassRule::Finite(datum, shape),
             (Role::Inertia | Role::CentralInertia, _) => MassRule::Inertia(self.of_inertia(role, shape, datum)),
             (Role::AddedMass, Shape::Matrix6) => MassRule::Symmetric(datum),
             _ => MassRule::Finite(datum, shape),
@@ -233,6 +240,11 @@ impl<'g> Laws<'_, 'g> {
         let central = value_of(Role::CentralInertia);
         let (mass, inertia) = (value_of(Role::Mass)?, central.or_else(|| value_of(Role::Inertia))?);
         let center = value_of(Role::CenterOfMass);
+        // What varies is not known before the run, and the rest stands beside it.
+        let varies = |value: &ClauseValue<'g>| !value.own.is_constant();
+        if varies(mass) || varies(inertia) || center.is_some_and(varies) {
+            return None;
+        }
         let role = inertia.own.quantity;
         let lever = (Datum::Own(Role::Mass), center.map(|_| Datum::Own(Role::CenterOfMass)));
         let laws = self.of_body(name, role.word(), lever, (Datum::Own(role), inertia.shape), central.is_some());
@@ -257,7 +269,8 @@ impl<'g> Laws<'_, 'g> {
         let of_fluid = body.values.iter().filter(|value| name.is_some() && !value.own.quantity.is_of_matter());
         let mut groups: Vec<Group<'g>> = of_fluid.filter_map(of_clause).collect();
         let link = &self.scene.tree.links[body.link];
-        if let Some(matter) = link.body().filter(|matter| matter.added_mass.is_some()) {
+        let varies = body.values.iter().any(|value| !value.own.is_constant()) || (name.is_none() && self.varies());
+        if let Some(matter) = link.body().filter(|matter| matter.added_mass.is_some() && !varies) {
             let matrix = KineticMatrix::new(link.frame.graph, matter, &[0, 1, 2], &[3, 4, 5]);
             let label = self.provenance.role_name(name, Role::AddedMass);
             groups.push(kinetic_matrix(label, &matrix, &self.scene.twist_of(body.link)));
@@ -275,7 +288,7 @@ impl<'g> Laws<'_, 'g> {
         // About the centre of mass no part speaks against another.
         let has = |role: Role| self.provenance.shape(role).is_some();
         let is_well = !has(Role::CenterOfMass) || has(Role::CentralInertia);
-        if in_fluid || active.iter().all(|&k| k >= 3) || is_well {
+        if in_fluid || active.iter().all(|&k| k >= 3) || is_well || self.varies() {
             return None;
         }
         Some(kinetic_matrix(self.provenance.role_name(None, Role::Inertia), &free.matrix, active))

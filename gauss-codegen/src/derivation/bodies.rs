@@ -37,6 +37,8 @@ pub struct LinkData {
     pub in_fluid: bool,
     /// Whether its axes deform with modes.
     pub deforms: bool,
+    /// Whether its mass data are functions of time.
+    pub varies: bool,
 }
 
 /// The matter of a body, a particle or a frame.
@@ -85,7 +87,10 @@ fn list(derived: &Derived<'_, '_>) -> Vec<LinkData> {
         };
         let in_fluid = link.body().is_some_and(|body| body.added_mass.is_some() || body.displaced.is_some());
         let deforms = tree.deformations.iter().any(|deformation| deformation.link == k);
-        LinkData { name, kind, in_fluid, deforms }
+        let instant = derived.subject.system.scene.matter_time;
+        let moments = link.matter.moments(tree.graph);
+        let varies = instant.is_some_and(|instant| !moments.map(|e| e.partial(instant)).is_zero());
+        LinkData { name, kind, in_fluid, deforms, varies }
     };
     tree.links.iter().enumerate().map(body).collect()
 }

@@ -92,7 +92,9 @@ impl<'a, 'g> Hoister<'a, 'g> {
                 Some(&definition) => self.visit(definition),
                 None => e,
             },
-            NodeView::Number(_) | NodeView::Opaque(_) => e,
+            NodeView::Number(_) => e,
+            // Of mass that varies.
+            NodeView::Opaque(inner) => self.visit(inner).opaque(),
             NodeView::Call(function, argument) => {
                 let argument = self.visit(argument);
                 self.graph.call(function, argument)

@@ -75,6 +75,7 @@ pub use loads::fields::entrained;
 pub use loads::forces::{Action, Element, Force};
 pub use loads::motion_symbols::MotionSymbols;
 pub use matter::body::{Body, BodyShape, ParameterSymbol, QuantityValues};
+pub use matter::flow::MatterFlow;
 pub use matter::modes::{Deformation, ModalIntegrals};
 pub use matter::rotor::Rotor;
 pub use name::Name;

@@ -6,6 +6,7 @@ pub mod contact;
 use std::ops::Range;
 
 use crate::algebra::{Expr, Graph, Map, Substitution};
+use crate::derivatives::Direction;
 use crate::terms::{BodyChart, Motion};
 
 use crate::mechanics::kinematics::coordinate::Coordinate;
@@ -36,6 +37,9 @@ pub struct ChartedLink {
 pub struct SystemScene<'g> {
     pub graph: &'g Graph,
     pub time: Expr<'g>,
+    /// The instant at which mass data are taken, where they vary: the time, which no velocity is differentiated by.
+    /// Forces of inertia are those of the matter that is there, and it keeps its mass.
+    pub matter_time: Option<Expr<'g>>,
     pub coordinates: Vec<Coordinate<'g>>,
     pub coordinate_names: Vec<Name>,
     /// Which of the coordinates are states of elements: forces may depend on them, nothing else of the motion does.
@@ -110,6 +114,7 @@ impl<'g> SystemScene<'g> {
         Self {
             graph: self.graph,
             time: self.time,
+            matter_time: self.matter_time,
             coordinates: self.coordinates.clone(),
             coordinate_names: self.coordinate_names.clone(),
             states: self.states.clone(),
@@ -128,6 +133,12 @@ impl<'g> SystemScene<'g> {
             inputs: self.inputs.clone(),
             elements,
         }
+    }
+
+    /// Time as a direction: the instant at which mass data are taken goes with it.
+    pub fn along_time(&self) -> Direction<'g> {
+        let one = self.graph.one();
+        [self.time].into_iter().chain(self.matter_time).map(|time| (time, one)).collect()
     }
 
     /// The chart that the configuration is, where it is the pose of the only body.

@@ -113,6 +113,7 @@ impl<'g> ChartedSystem<'g> {
         let scene = SystemScene {
             graph,
             time,
+            matter_time: None,
             coordinates: chart.coordinates.clone(),
             coordinate_names: chart.coordinate_names.clone(),
             states: 0..0,

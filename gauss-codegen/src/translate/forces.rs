@@ -118,6 +118,7 @@ impl<'g> Translator<'_, 'g> {
             ElementKind::TorsionalSpring => return self.torsional_spring(name, clause, tree),
             ElementKind::Bushing => return self.bushing(name, clause, tree),
             ElementKind::Stop => return self.stop(name, clause, tree),
+            ElementKind::MassFlow => self.mass_flow(clause, tree)?,
             ElementKind::Attraction => return Err(bug(clause.span)),
         };
         Ok(vec![Action::Forces(forces)])
@@ -172,7 +173,7 @@ impl<'g> Translator<'_, 'g> {
 
     /// A force and a torque on a link with their axes: its own where links of its tree know them, whatever the axes in
     /// which the user gives them.
-    fn parts(
+    pub(super) fn parts(
         &self,
         link: usize,
         written: [Option<&Expression>; 2],
@@ -259,7 +260,7 @@ impl<'g> Translator<'_, 'g> {
         clause.find(word).map(|_| self.constant(name, clause, word, tree)).transpose()
     }
 
-    fn vector_or_zero(&self, clause: &ForceClause, word: &str, tree: &Tree<'g>) -> Result<Triple<'g>> {
+    pub(super) fn vector_or_zero(&self, clause: &ForceClause, word: &str, tree: &Tree<'g>) -> Result<Triple<'g>> {
         clause.expression(word).map_or(Ok([self.graph.zero(); 3]), |e| self.vector(e, tree))
     }
 

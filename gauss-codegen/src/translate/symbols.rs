@@ -36,6 +36,8 @@ pub struct ParameterSource<'g> {
 pub struct SceneSymbols<'g> {
     graph: &'g Graph,
     pub time: Expr<'g>,
+    /// The instant at which mass data are taken, where they vary.
+    pub matter_time: Option<Expr<'g>>,
     /// Body of the chart, whose coordinates and speeds come before the declared ones.
     pub chart: Option<ChartedBody<'g>>,
     pub coordinates: Vec<Coordinate<'g>>,
@@ -191,6 +193,7 @@ impl<'g> SceneSymbols<'g> {
         let mut declared = Self {
             graph,
             time: graph.zero(),
+            matter_time: model.mass_varies().then(|| graph.symbol("t", "t", false)),
             chart: None,
             coordinates: Vec::new(),
             before: 0,

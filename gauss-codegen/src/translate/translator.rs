@@ -41,7 +41,7 @@ pub fn translate<'g>(graph: &'g Graph, model: &Model) -> Result<Translated<'g>> 
     let functions: HashMap<String, OwnFunction> = model.item.functions.iter().map(function).collect();
     let pi = graph.symbol("π", "\\pi", true);
     let notes = Notes::new(vec![(symbols::pi(), pi)]);
-    let mut assigned = Translator::new(graph, model, &declared, &functions, pi, &notes).mass_data()?;
+    let mut assigned = Translator::new(graph, model, &declared, &functions, pi, &notes).of_matter().mass_data()?;
     (declared.gravity, declared.bodies) = (assigned.gravity, std::mem::take(&mut assigned.bodies));
     let mut translator = Translator::new(graph, model, &declared, &functions, pi, &notes);
     let scene = translator.scene()?;
@@ -179,6 +179,15 @@ impl<'a, 'g> Translator<'a, 'g> {
         }
     }
 
+    /// The same with `t` for the instant at which mass data are taken: it stands still where velocities and momenta are
+    /// differentiated, as masses do that are followed on their way.
+    pub(super) fn of_matter(&self) -> Self {
+        let mut of_matter = self.clone();
+        let time = self.declared.matter_time.unwrap_or(self.declared.time);
+        of_matter.names.insert("t".to_owned(), Value::Scalar(time));
+        of_matter
+    }
+
     /// Indices of the speeds with the given names: three for a vector, one for a component.
     fn indices_of_speeds(&self, names: &[SpeedPart]) -> Vec<usize> {
         let idents = self.speed_idents();
@@ -229,12 +238,14 @@ impl<'a, 'g> Translator<'a, 'g> {
         let mut tree = Tree::new(graph, placements, speeds.clone(), self.rates.clone(), self.declared.gravity);
         self.name_points(&tree)?;
         for clause in &model.particles {
-            let mass = self.scalar(&clause.mass, &tree)?;
+            let mass = self.of_matter().scalar(&clause.mass, &tree)?;
             let label = match &clause.mass.kind {
                 ExpressionKind::Name(name) => name.unraw().to_string(),
                 _ => "particle(mass = …)".to_owned(),
             };
-            self.notes.add().laws.push(Law { label, kind: LawKind::MassInSum, values: vec![mass] });
+            if mass.is_constant() {
+                self.notes.add().laws.push(Law { label, kind: LawKind::MassInSum, values: vec![mass] });
+            }
             let parent = clause.parent.as_ref().and_then(|name| self.links.get(&name.unraw().to_string()).copied());
             tree.hang(Placement {
                 matter: Matter::Particle(mass),
@@ -258,6 +269,7 @@ impl<'a, 'g> Translator<'a, 'g> {
         Ok(SystemScene {
             graph,
             time: self.declared.time,
+            matter_time: self.declared.matter_time,
             coordinates: self.declared.coordinates.clone(),
             coordinate_names: self.declared.coordinate_names.clone(),
             states: self.declared.states.clone(),

@@ -65,6 +65,7 @@ pub fn armatures(scene: &SceneNumbers, tree: &JointTree, masses: &[MassData]) ->
         own.in_fluid
             .then(|| format!("on `{name}` {fluid}"))
             .or(own.deforms.then(|| format!("`{name}` deforms (`modes`), which no body of MJCF does")))
+            .or(own.varies.then(|| format!("the mass of `{name}` varies with the time, and a file has numbers")))
     };
     let mistakes: Vec<String> = list.iter().filter_map(mistake).collect();
     if !mistakes.is_empty() {

@@ -59,7 +59,8 @@ pub fn parameters_read(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream
     let fields = given.item.fields.iter().enumerate().filter(|(k, _)| given.is_read(*k));
     let mut read: TokenStream = fields.map(|(k, field)| read_field(&derived.private(), k, field)).collect();
     let scalar = derived.scalar();
-    let clauses = given.mass_data.unnamed.iter();
+    // What varies is in no law.
+    let clauses = given.mass_data.unnamed.iter().filter(|value| value.own.is_constant());
     read.extend(
         clauses.map(|ClauseValue { own, .. }| clause_local(&scalar, &local_of_clause(own.quantity), own, symbols)),
     );

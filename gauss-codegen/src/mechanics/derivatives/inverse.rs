@@ -23,7 +23,7 @@ impl<'g> InverseLinearization<'g> {
         directions.extend(alone(graph, &scene.speeds));
         let of_rates = directions.len()..directions.len() + scene.speed_rates.len();
         directions.extend(alone(graph, &scene.speed_rates));
-        directions.extend(alone(graph, &[scene.time]));
+        directions.push(scene.along_time());
         directions.extend(alone(graph, &scene.inputs));
         // Along ż it is linear, with the matrix A.
         let at_fixed_rates = |k: &usize| !of_rates.contains(k);
@@ -34,7 +34,9 @@ impl<'g> InverseLinearization<'g> {
             let outputs = way.into_iter().chain(system.matrix.iter().cloned()).chain(rest).flatten().collect();
             DerivativeForm { outputs, columns: None }
         };
-        let derived = system.residuals_with_derivatives(&fixed).into_iter().map(whole).collect();
+        // Forms of their own know masses that stay.
+        let forms = if scene.matter_time.is_some() { Vec::new() } else { system.residuals_with_derivatives(&fixed) };
+        let derived = forms.into_iter().map(whole).collect();
         Self { differentiated: DirectionalDerivatives { arrangements, defined: system.defined(), directions, derived } }
     }
 }

@@ -116,9 +116,10 @@ impl<'g> Linearization<'g> {
         let increments = directions.len();
         let velocity: Vec<Expr<'g>> = order.iter().map(|&k| scene.kinematics[k]).collect();
         directions.extend(alone(graph, &scene.speeds));
-        directions.extend(alone(graph, &[scene.time]));
+        directions.push(scene.along_time());
         directions.extend(alone(graph, &scene.inputs));
-        let derived = derived(system, &velocity, &directions);
+        // Forms of their own know masses that stay.
+        let derived = if scene.matter_time.is_some() { Vec::new() } else { derived(system, &velocity, &directions) };
         // Derivatives with a form of their own solve for all columns without wrenches: where accelerations keep digits
         // because these are gathered first, that would be asked of columns that cost half as much.
         let gathered = if derived.is_empty() { Vec::new() } else { system.gathered_accelerations() };
@@ -159,10 +160,10 @@ fn derived<'g>(system: &System<'g>, velocity: &[Expr<'g>], directions: &[Directi
 }
 
 impl<'g> System<'g> {
-    /// Entries of rotations that stand for expressions of quaternions.
+    /// Entries of rotations that stand for expressions of quaternions; the instant of mass data, which is the time.
     pub fn defined(&self) -> Vec<Expr<'g>> {
         let rotations = self.scene.coordinates.iter().filter_map(Coordinate::rotation);
-        rotations.flatten().flatten().copied().collect()
+        rotations.flatten().flatten().copied().chain(self.scene.matter_time).collect()
     }
 }
 

@@ -32,11 +32,18 @@ pub struct ParameterSymbol<'g> {
 #[derive(Clone, Debug)]
 pub struct QuantityValues<'g> {
     pub quantity: Role,
-    /// Expressions of parameters and numbers.
+    /// Expressions of parameters and numbers, of mass data also of the instant at which these are taken.
     pub values: Vec<Expr<'g>>,
 }
 
-/// The body as the derivation sees it; all entries depend on parameters alone.
+impl QuantityValues<'_> {
+    /// Whether they are the same at all times.
+    pub fn is_constant(&self) -> bool {
+        self.values.iter().all(|value| value.is_constant())
+    }
+}
+
+/// The body as the derivation sees it; entries depend on parameters, and where mass varies on the instant of mass data.
 #[derive(Clone)]
 pub struct Body<'g> {
     pub mass: Expr<'g>,

@@ -2,6 +2,7 @@
 
 pub mod added_mass;
 pub mod body;
+pub mod flow;
 pub mod modes;
 pub mod moments;
 pub mod rotor;

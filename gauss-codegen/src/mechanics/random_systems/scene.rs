@@ -164,6 +164,7 @@ impl<'g> PlanSymbols<'g> {
         SystemScene {
             graph: self.graph,
             time: self.time,
+            matter_time: None,
             coordinate_names: names("q", coordinates.len()),
             states: 0..0,
             speeds: pick(&self.speeds),

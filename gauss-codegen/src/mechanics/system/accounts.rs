@@ -12,6 +12,8 @@ use super::System;
 
 /// The name of the account of prescribed motion: coordinates and constraints that are given functions of time.
 const GUIDES: &str = "guides";
+/// The name of the account of mass that varies.
+const MATTER: &str = "mass";
 
 /// One account of a name: an element with a potential and forces, as a spring with a damper, is in the energy by the
 /// first.
@@ -74,7 +76,15 @@ impl<'g> System<'g> {
         if self.driven {
             accounts.push(self.account_of_guides(&accounts));
         }
+        accounts.extend(scene.matter_time.map(|instant| self.account_of_matter(instant)));
         sorted(accounts)
+    }
+
+    /// Account of the kinetic energy that matter brings or takes along, where masses vary. It has no generalised force.
+    fn account_of_matter(&self, instant: Expr<'g>) -> Account<'g> {
+        let power = self.scene.tree.twice_kinetic_energy().half().partial(instant);
+        let forces = vec![self.scene.graph.zero(); self.scene.speeds.len()];
+        Account { name: MATTER.to_owned(), conservative: false, forces, power, outside: Some(power) }
     }
 
     /// Account of the work of guides: it is all that changes the kinetic energy and is done by nothing else. It has no
@@ -109,12 +119,18 @@ impl<'g> System<'g> {
             Action::Forces(forces) => forces.iter().all(takes),
         });
         let of_masses = scene.tree.twice_kinetic_energy().partial(scene.time);
-        none_gives && !self.driven && self.explicit_power().is_zero() && of_masses.is_zero()
+        none_gives
+            && scene.matter_time.is_none()
+            && !self.driven
+            && self.explicit_power().is_zero()
+            && of_masses.is_zero()
     }
 
-    /// ∂U/∂t.
+    /// ∂U/∂t, with the weight of matter that comes or goes.
     pub(in crate::mechanics) fn explicit_power(&self) -> Expr<'g> {
         let potential = self.potential.unwrap_or_else(|| self.scene.graph.zero());
-        potential.partial(self.scene.time) + self.scene.tree.potential_energy().partial(self.scene.time)
+        let weight = self.scene.tree.potential_energy();
+        let explicit = potential.partial(self.scene.time) + weight.partial(self.scene.time);
+        self.scene.matter_time.map_or(explicit, |instant| explicit + (weight + potential).partial(instant))
     }
 }

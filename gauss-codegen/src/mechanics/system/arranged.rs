@@ -5,6 +5,7 @@ use crate::algebra::{Expr, Map};
 use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::formula::{Arrangements, Formula, Formulas, Method};
 use crate::mechanics::links::tree::Tree;
+use crate::mechanics::tidy::sums;
 
 use super::{System, tidied};
 
@@ -101,7 +102,18 @@ impl<'g> System<'g> {
             }
             formulas.add(candidates);
         }
+        self.with_matter_that_varies(&mut formulas);
         formulas
+    }
+
+    /// Adds to ṗ what momenta change by where masses do.
+    fn with_matter_that_varies(&self, formulas: &mut Formulas<'g>) {
+        let (Some(instant), Some(velocity)) = (self.scene.matter_time, formulas.velocity.first()) else { return };
+        let speeds: Map<u32, Expr<'g>> =
+            self.scene.speeds.iter().zip(velocity).map(|(z, value)| (z.key(), value.group())).collect();
+        let momentum = self.scene.tree.momentum();
+        let more: Vec<Expr<'g>> = momentum.iter().map(|p| p.partial(instant).substitute(&speeds)).collect();
+        formulas.momentum_rate.iter_mut().for_each(|rates| *rates = sums(rates, &more));
     }
 
     /// q̇ with the rates of states; `None` where no element has states.

@@ -78,6 +78,7 @@ fn read_value(
         ArgumentType::Point
         | ArgumentType::Force
         | ArgumentType::Torque
+        | ArgumentType::FlowVelocity
         | ArgumentType::Drive
         | ArgumentType::Dissipation
         | ArgumentType::End

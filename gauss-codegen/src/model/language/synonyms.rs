@@ -32,7 +32,9 @@ const FIXED: &str = "a place fixed in a body is `frame(name, parent = other, pos
 const POINT_MASS: &str = "a point with mass is `particle(mass = m, position = […])`";
 const MOMENT: &str = "a moment is `torque(body = other, value = [0, 0, m])`";
 const THRUST: &str = "a value that arrives at run time is an input, and acts by a clause: `input(thrust), force(body = hull, at = […], \
-                      value = [thrust, 0, 0])`";
+                      value = [thrust, 0, 0])`; with the mass that it burns `mass_flow(…)`";
+const FLOW: &str = "mass that varies is a function of time, `body(hull, mass = m - burn * t, …)`, and matter that leaves the \
+                    body or enters it at a place is `mass_flow(body = hull, at = […], velocity = […])`";
 const MOTOR: &str = "a motor is an input with a torque and its reaction: `input(motor), torque(body = wheel, \
                      value = [0, 0, motor], reaction = hull)`, or `drive(angle = motor)`";
 const INPUT: &str = "a value that arrives at run time is declared by `input(name)`, and acts where `force(…)`, `torque(…)` or \
@@ -149,6 +151,13 @@ pub const FOR_CLAUSES: &Table<&'static str> = &[
     ("thruster", THRUST),
     ("propeller", THRUST),
     ("engine", THRUST),
+    ("exhaust", FLOW),
+    ("nozzle", FLOW),
+    ("rocket", FLOW),
+    ("fuel", FLOW),
+    ("propellant", FLOW),
+    ("mass_rate", FLOW),
+    ("variable_mass", FLOW),
     ("motor", MOTOR),
     ("actuator", MOTOR),
     ("servo", MOTOR),
@@ -494,6 +503,10 @@ pub const FOR_ARGUMENTS: &Table<&[&str]> = &[
     ("begin", &["from"]),
     ("end", &["to"]),
     ("speed", &["velocity"]),
+    ("exhaust", &["velocity"]),
+    ("relative_velocity", &["velocity"]),
+    ("exit", &["at"]),
+    ("nozzle", &["at"]),
     ("wind", &["velocity"]),
     ("current", &["velocity"]),
 ];

@@ -235,6 +235,7 @@ impl ForceClause {
             }
             ArgumentType::Force => ExpressionPlace::Force,
             ArgumentType::Torque => ExpressionPlace::Torque,
+            ArgumentType::FlowVelocity => ExpressionPlace::FlowVelocity,
             ArgumentType::Drive => ExpressionPlace::Drive,
             ArgumentType::Dissipation => ExpressionPlace::Dissipation,
             ArgumentType::End => ExpressionPlace::End(holder),

@@ -2,6 +2,7 @@
 
 pub mod definitions;
 pub mod expressions;
+mod holder;
 pub mod inputs;
 pub mod kinds;
 pub mod moving_names;

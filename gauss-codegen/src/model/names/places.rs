@@ -1,48 +1,13 @@
 //! Places of expressions: which kind of value is needed there, and which names may stand there.
 
+pub use super::holder::Holder;
 use super::scope::Meaning;
 use crate::model::language::kind::ValueKind;
-use crate::model::language::words;
 use crate::model::scene::clauses::{ConstraintLevel, CoordinateKind};
-use crate::model::scene::elements::{ElementKind, Row};
+use crate::model::scene::elements::ElementKind;
 use crate::model::scene::expression::FunctionName;
 use crate::terms::{Role, Shape};
 use proc_macro2::Ident;
-
-/// Owners of ends, an extent, constants or coefficients.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Holder {
-    Element(&'static Row),
-    Armature,
-    Lock,
-    Modes,
-    AddedMass,
-    Inertia,
-    Contact,
-}
-
-impl Holder {
-    /// Noun in messages, with its article.
-    fn noun(self) -> String {
-        match self {
-            Holder::Element(row) => words::a(row.noun),
-            Holder::Armature => "an armature".into(),
-            Holder::Lock => "a lock".into(),
-            Holder::Modes => "modes".into(),
-            Holder::AddedMass => "an added mass".into(),
-            Holder::Inertia => "an inertia".into(),
-            Holder::Contact => "a contact".into(),
-        }
-    }
-
-    /// Words for its constants.
-    fn constant(self) -> String {
-        match self {
-            Holder::Element(_) | Holder::Contact => format!("a constant of {}", self.noun()),
-            Holder::Armature | Holder::Lock | Holder::Modes | Holder::AddedMass | Holder::Inertia => self.noun(),
-        }
-    }
-}
 
 /// Place of an expression.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -95,6 +60,8 @@ pub enum ExpressionPlace {
     Force,
     /// The components of a torque.
     Torque,
+    /// The velocity of matter relative to its body where it leaves or enters it.
+    FlowVelocity,
     /// The generalised force on the rate of a coordinate.
     Drive,
     /// Begin or end of the extent of a spring or a stop.
@@ -149,6 +116,7 @@ impl ExpressionPlace {
             | ExpressionPlace::ForceAt { .. }
             | ExpressionPlace::Force
             | ExpressionPlace::Torque
+            | ExpressionPlace::FlowVelocity
             | ExpressionPlace::End(_) => kind == ValueKind::Vector,
             ExpressionPlace::Medium
             | ExpressionPlace::Center
@@ -233,6 +201,7 @@ impl ExpressionPlace {
             ExpressionPlace::ForceAt { .. } => ("the point of a force in its body is a vector", "write `[x, y, z]`"),
             ExpressionPlace::Force => ("a force is a vector", "write `[fx, fy, fz]`"),
             ExpressionPlace::Torque => ("a torque is a vector", "write `[mx, my, mz]`"),
+            ExpressionPlace::FlowVelocity => ("the velocity of a mass flow is a vector", "write `[ux, uy, uz]`"),
             ExpressionPlace::Drive => {
                 ("the generalised force on the rate of a scalar coordinate is a scalar", "write one number")
             }
@@ -296,7 +265,7 @@ impl ExpressionPlace {
         match meaning {
             Meaning::Scalar | Meaning::Vector | Meaning::Definition(_) | Meaning::Unusable(_) => true,
             Meaning::Pi | Meaning::Function(_) => true,
-            Meaning::Time => !self.is_constant(),
+            Meaning::Time => !self.is_constant() || self.is_of_matter(),
             Meaning::Coordinate(_) => !self.is_constant() && !self.is_given(),
             Meaning::Speed(_) => self.of_velocities(),
             Meaning::Input(_) | Meaning::State => self.is_action(),
@@ -326,6 +295,7 @@ impl ExpressionPlace {
             self,
             ExpressionPlace::Force
                 | ExpressionPlace::Torque
+                | ExpressionPlace::FlowVelocity
                 | ExpressionPlace::Drive
                 | ExpressionPlace::State
                 | ExpressionPlace::Dissipation
@@ -381,6 +351,16 @@ impl ExpressionPlace {
         )
     }
 
+    /// Mass data, which may be functions of time.
+    fn is_of_matter(self) -> bool {
+        match self {
+            ExpressionPlace::Mass => true,
+            ExpressionPlace::Role(role) => role.is_of_matter(),
+            ExpressionPlace::Constant { of, .. } => of == Holder::Inertia,
+            _ => false,
+        }
+    }
+
     /// Noun of the expression here, for messages.
     pub fn subject(self) -> String {
         let subject = match self {
@@ -407,6 +387,7 @@ impl ExpressionPlace {
             ExpressionPlace::ForcePoint | ExpressionPlace::ForceAt { .. } => "the point of a force",
             ExpressionPlace::Force => "a force",
             ExpressionPlace::Torque => "a torque",
+            ExpressionPlace::FlowVelocity => "the velocity of a mass flow",
             ExpressionPlace::Drive => "a generalised force",
             ExpressionPlace::End(holder) => return format!("the end of {}", holder.noun()),
             ExpressionPlace::Along(holder) => return format!("the extent of {}", holder.noun()),
@@ -464,8 +445,16 @@ impl ExpressionPlace {
                  write rates in coordinates, speeds, fields and `t`"
             ),
             (ExpressionPlace::Mass, _) => format!(
-                "`{name}` varies, and the mass of a particle is constant; write numbers and fields only; a particle that \
-                 loses mass moves as one of mass 1 does on which every force is divided by m(t)"
+                "`{name}` moves with the system, and the mass of a particle is given beforehand; write it in `t`, fields \
+                 and numbers"
+            ),
+            (ExpressionPlace::Constant { of: Holder::Inertia, .. }, _) => format!(
+                "`{name}` moves with the system, and an inertia is given beforehand; write it in `t`, fields and numbers"
+            ),
+            (ExpressionPlace::Role(role), _) if role.is_of_matter() => format!(
+                "`{name}` moves with the system, and `{}` of a body is given beforehand; write it in `t`, fields and \
+                 numbers, and where the mass leaves the body as `mass_flow(…)`",
+                role.word()
             ),
             (ExpressionPlace::Role(role), _) => {
                 format!("`{name}` varies, and `{}` of a body is constant; write numbers and fields only", role.word())
@@ -553,6 +542,7 @@ impl ExpressionPlace {
             self,
             ExpressionPlace::Force
                 | ExpressionPlace::Torque
+                | ExpressionPlace::FlowVelocity
                 | ExpressionPlace::Drive
                 | ExpressionPlace::Coefficient(_)
                 | ExpressionPlace::State
@@ -577,6 +567,11 @@ impl ExpressionPlace {
     pub fn refuses_kink(self, function: FunctionName) -> Option<String> {
         match self {
             place if place.takes_kinks() => None,
+            place if place.is_of_matter() => Some(format!(
+                "`{}` stands in values of forces only; make the number a field of the struct, or the function of time a \
+                 `table(…)`",
+                function.word()
+            )),
             place if place.is_constant() => Some(format!(
                 "`{}` stands in values of forces only; make the number a field of the struct",
                 function.word()

@@ -18,6 +18,7 @@ pub enum ElementKind {
     TorsionalSpring,
     Bushing,
     Dissipation,
+    MassFlow,
     Attraction,
 }
 
@@ -134,6 +135,8 @@ pub enum ArgumentType {
     Force,
     /// A vector.
     Torque,
+    /// The velocity of matter relative to the body where it leaves or enters it: a vector.
+    FlowVelocity,
     /// The generalised force on the rate of a scalar coordinate: a scalar.
     Drive,
     /// Rayleigh's dissipation function: a scalar whose negative partial derivatives by z are the generalised forces.
@@ -212,11 +215,13 @@ pub mod argument {
     pub const MOST: &str = "most";
     pub const MU: &str = "mu";
     pub const CENTER: &str = "center";
+    pub const VELOCITY: &str = "velocity";
+    pub const THRUST: &str = "thrust";
 }
 
 use argument::{
     ALONG, ANGLE, AT, AXES, BODY, CENTER, DAMPING, DRY, FORCE as OF_FORCE, FROM, LEAST, LENGTH, LINEAR, MOST, MU,
-    OTHER, QUADRATIC, REACTION, STIFFNESS, TO, TORQUE as OF_TORQUE, VALUE, VISCOUS, WIDTH,
+    OTHER, QUADRATIC, REACTION, STIFFNESS, THRUST, TO, TORQUE as OF_TORQUE, VALUE, VELOCITY, VISCOUS, WIDTH,
 };
 
 const ON_BODY: ElementArgument = ElementArgument::required(BODY, ArgumentType::Body, "…", "the body that it acts on");
@@ -244,6 +249,7 @@ pub static ELEMENTS: &[&Row] = &[
     &TORSIONAL_SPRING,
     &BUSHING,
     &DISSIPATION,
+    &MASS_FLOW,
 ];
 
 /// At the point that has the position `at`, or at a point of `body`.
@@ -514,6 +520,35 @@ pub static DISSIPATION: Row = Row {
     refused: &[],
     example: "c * v * v / 2",
     argument: "a dissipation function",
+};
+
+/// Matter that a body of varying mass loses or takes up at the place `at`, where it moves with `velocity` relative to the
+/// body: the force ṁ u there, and what matter that flows toward the place does to a body that turns. `thrust` is a
+/// force at the same place, of the pressure there or, in the place of the velocity, all of it.
+pub static MASS_FLOW: Row = Row {
+    kind: ElementKind::MassFlow,
+    word: "mass_flow",
+    noun: "mass flow",
+    form: ClauseForm::Arguments,
+    arguments: &[
+        ON_BODY,
+        ElementArgument::optional(AT, ArgumentType::Point, "[l, 0, 0]"),
+        ElementArgument::optional(VELOCITY, ArgumentType::FlowVelocity, "[ux, uy, uz]"),
+        ElementArgument::optional(THRUST, ArgumentType::Force, "[fx, fy, fz]"),
+        IN_AXES,
+    ],
+    rules: &[ArgumentRule::OneOf(
+        [VELOCITY, THRUST],
+        "the velocity relative to the body with which matter leaves or enters it; add `velocity = [ux, uy, uz]`, \
+         `thrust = [fx, fy, fz]`",
+    )],
+    refused: &[
+        ("value", "the force of a mass flow follows from `velocity`; a force that is known is `thrust = [fx, fy, fz]`"),
+        ("mass", "how much flows is the rate of the `mass` of the body: `body(…, mass = m - burn * t)`"),
+        ("rate", "how much flows is the rate of the `mass` of the body: `body(…, mass = m - burn * t)`"),
+    ],
+    example: "body = …, at = …, velocity = [ux, uy, uz]",
+    argument: "an argument such as `velocity = [-c, 0, 0]`",
 };
 
 /// The acceleration `−mu d/|d|³` of everything with mass, d from the centre. It is no force clause: it acts on all.

@@ -11,6 +11,7 @@ use super::forces::ForceClause;
 use super::limbs::Limbs;
 use super::modes::ModesClause;
 use crate::terms::{BodyChart, Item};
+use std::collections::HashSet;
 use syn::Ident;
 use syn::ext::IdentExt;
 
@@ -105,6 +106,20 @@ impl Model {
     pub fn waives_triangle_inequality(&self, body: Option<&Ident>) -> bool {
         let same = |formal: &Ident| body.map_or_else(|| formal == "body", |body| body.unraw() == formal.unraw());
         self.formal.iter().any(|formal| formal.as_ref().is_none_or(same))
+    }
+
+    /// Whether mass data are functions of time.
+    pub fn mass_varies(&self) -> bool {
+        let mut names = HashSet::new();
+        self.particles.iter().for_each(|particle| particle.mass.put_names(&mut names));
+        let all = self.role_clauses.iter().chain(self.bodies.iter().flat_map(|body| &body.role_clauses));
+        for clause in all.filter(|clause| clause.role.is_of_matter()) {
+            match &clause.value {
+                RoleValue::Expression(value) => value.put_names(&mut names),
+                RoleValue::Coefficients(entries) => entries.entries().for_each(|entry| entry.put_names(&mut names)),
+            }
+        }
+        names.contains("t")
     }
 
     /// Whether the body is the one that moves in the chart of the model.

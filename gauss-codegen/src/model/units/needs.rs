@@ -261,6 +261,7 @@ impl UnitChecker<'_> {
             ArgumentType::Point => Need::new("the place where a force acts is", LENGTH),
             ArgumentType::Force => Need::new("the components of a force are", FORCE),
             ArgumentType::Torque => Need::new("the components of a torque are", TORQUE),
+            ArgumentType::FlowVelocity => Need::new("the velocity of a mass flow is", VELOCITY),
             ArgumentType::Dissipation => Need::new("a dissipation function is", POWER),
             ArgumentType::End => Need::new(format!("the ends of {noun} are"), LENGTH),
             ArgumentType::Center => Need::new("a center of gravity is", LENGTH),

@@ -33,9 +33,12 @@ fn each(test: impl Fn(&Row, &str, &dyn Fn(&str, &str) -> String)) {
 fn written(argument: &ElementArgument) -> Option<String> {
     let value = match argument.takes {
         ArgumentType::Body | ArgumentType::Other | ArgumentType::Axes => return None,
-        ArgumentType::Force | ArgumentType::Torque | ArgumentType::Point | ArgumentType::End | ArgumentType::Center => {
-            "c"
-        }
+        ArgumentType::Force
+        | ArgumentType::Torque
+        | ArgumentType::FlowVelocity
+        | ArgumentType::Point
+        | ArgumentType::End
+        | ArgumentType::Center => "c",
         ArgumentType::Constant { .. } | ArgumentType::Drive | ArgumentType::Dissipation | ArgumentType::Along => "k",
         ArgumentType::Coefficients(_) | ArgumentType::Matrix { .. } => "[1, 2, 3, 4, 5, k]",
     };
