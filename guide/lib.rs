@@ -17,6 +17,7 @@ chapters! {
     OwnCoordinates: "src/own_coordinates.md",
     Constraints: "src/constraints.md",
     Loads: "src/loads.md",
+    Mass: "src/mass.md",
     States: "src/states.md",
     Reactions: "src/reactions.md",
     Flexible: "src/flexible.md",

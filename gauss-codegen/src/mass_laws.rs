@@ -366,6 +366,23 @@ mod tests {
         assert_eq!(attracted, "rod.inertia: [InSum] [true, false]");
     }
 
+    /// Numbers beside them are checked, and what is about both of them is not.
+    #[test]
+    fn masses_that_vary_are_known_in_the_run_alone() {
+        let of_one = |mass: &str| {
+            laws(&format!(
+                "#[gauss(coordinates(x), particle(mass = m, position = [x, 0, 0]), body(rod, position = [x, 0, 0], \
+                 mass = {mass}, inertia = j))] struct Rod {{ m: f64, j: f64 }}"
+            ))
+        };
+        let known = ["m: finite", "j: finite", "rod.mass: in sum", "rod.inertia: [Still] [true, false]"];
+        assert_eq!(of_one("m"), known);
+        assert_eq!(of_one("m - t"), ["m: finite", "j: finite"]);
+        let free = "#[gauss(chart = hybrid, mass = 3 - t)] struct Body { #[gauss(center_of_mass)] c: Vector3<f64>, \
+                    #[gauss(inertia)] i: Matrix3<f64> }";
+        assert_eq!(laws(free), ["c: finite", "i: finite"]);
+    }
+
     #[test]
     fn bodies_that_move_together_are_checked_together() {
         let found = laws(

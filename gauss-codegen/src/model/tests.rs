@@ -64,6 +64,6 @@ const INERTIA: &str = "the inertia about O is one number, three principal moment
 
 const ALL_CLAUSES: &str = "motion is declared by `chart`, `motion`, `coordinates`, `speeds`, `kinematics`, `body`, \
     `frame`, `particle`, `constraint`, `independent` or `redundant`, forces and more by `point`, `contact`, `range`, `dry_friction`, `potential`, `input`, `states`, `force`, \
-    `torque`, `wrench`, `drive`, `spring`, `stop`, `drag`, `friction`, `coupling`, `torsional_spring`, `bushing`, `damping`, `armature`, `lock`, `modes`, `medium`, \
+    `torque`, `wrench`, `drive`, `spring`, `stop`, `drag`, `friction`, `coupling`, `torsional_spring`, `bushing`, `damping`, `mass_flow`, `armature`, `lock`, `modes`, `medium`, \
     `central_gravity`, `define`, `function`, `table`, `waive` or `limit`, and generated code is chosen by `crate`, \
     `taylor`, `linearize`, `regressor`, `frames`, `reactions`, `methods` or `python`";

@@ -9,7 +9,8 @@
 //! - `kinematics`: ψ, and the rates of everything that it moves.
 //! - `values`: expressions; `value`: what they stand for.
 //! - `domains`: expressions without a value; `notes`: what is noted on the way.
-//! - `forces`: loads; `flow`: matter that leaves or enters; `contacts`: gaps, slips and their coefficients; `shapes`: those of points, spheres, boxes.
+//! - `forces`: loads; `flow`: matter that leaves or enters; `contacts`: gaps, slips and their coefficients; `shapes`:
+//!   those of points, spheres, boxes.
 //! - `laws`, `drag`: constants of loads, for checks and warnings.
 //! - `parameters`: what the numbers of fields are called; `state`: what coordinates and speeds are called.
 //! - `freed_scene`: the scene once more, with joints let go, for their reactions; `freedom`: what they move by then.

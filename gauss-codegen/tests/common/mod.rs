@@ -4,7 +4,13 @@ use gauss_codegen::Derivation;
 use gauss_codegen::program::{ArgumentKind, Program};
 
 /// One body in each kind of chart, systems with groups, constraints, inputs, literals, and forces that are not smooth.
-pub const SCENES: [(&str, &str); 8] = [
+pub const SCENES: [(&str, &str); 9] = [
+    (
+        "Rocket",
+        "#[gauss(linearize, chart = left_invariant, mass = m * exp(-t / k), center_of_mass = [c - t, 0, 0],
+            inertia = [a, b - t, b], mass_flow(at = [-l, 0, 0], velocity = [-v, 0, 0]), gravity = 9.81)]
+        struct Rocket { m: f64, k: f64, c: f64, a: f64, b: f64, l: f64, v: f64 }",
+    ),
     (
         "Top",
         "#[gauss(motion = fixed_point)] struct Top { #[gauss(mass)] m: f64, #[gauss(inertia)] i: Vector3<f64> }",

@@ -60,6 +60,17 @@ pub const SMOOTH: Row = Row {
     ],
 };
 
+pub const MASS: Row = Row {
+    name: "Mass that varies",
+    clause: "`mass = m - burn * t`, `mass_flow(…)`",
+    cells: &[
+        ("ada", shown("tests/tests/mass_that_varies/main.rs", "a_rocket_reaches_the_velocity_of_tsiolkovsky")),
+        ("evt", refused(NO_CONTACTS)),
+        ("stp", refused(NO_CONTACTS)),
+        ("lin", shown("tests/tests/mass_that_varies/main.rs", "derivatives_know_that_mass_varies")),
+    ],
+};
+
 pub const CONSTRAINTS: Row = Row {
     name: "Constraints",
     clause: "`constraint(position = …)`, `constraint(velocity = …)`",

@@ -11,11 +11,12 @@ use std::fs;
 use gauss_tests::pages::repository;
 
 use cells::{COLUMNS, Cell, Kind, Row, Test, UNSHOWN};
-use equations::{CONSTRAINTS, INPUTS, MODES, RECORDED, REDUNDANT, SMOOTH, STATES, TABLE_OF_ONE, TABLES};
+use equations::{CONSTRAINTS, INPUTS, MASS, MODES, RECORDED, REDUNDANT, SMOOTH, STATES, TABLE_OF_ONE, TABLES};
 use happenings::{CONTACTS, EVENTS, JUMPS, RANGES, SAMPLED, SLOTS};
 
-const ROWS: [Row; 15] = [
+const ROWS: [Row; 16] = [
     SMOOTH,
+    MASS,
     CONSTRAINTS,
     REDUNDANT,
     STATES,

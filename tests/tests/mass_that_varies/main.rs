@@ -53,8 +53,8 @@ struct Drops {
     g: f64,
 }
 
-/// Meshchersky: d(m v)/dt = m g of the drop that takes up matter from rest, and m v̇ = f of the other, whose matter leaves
-/// with the velocity that it has. A few roundings.
+/// Meshchersky: d(m v)/dt = m g of the drop that takes up matter from rest, and m v̇ = f of the other, whose matter
+/// leaves with the velocity that it has. A few roundings.
 #[test]
 fn drops_have_the_equations_of_meshchersky() {
     let (m, k, f, g) = (0.3, 0.2, 1.5, 9.81);

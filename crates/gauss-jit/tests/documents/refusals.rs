@@ -92,6 +92,7 @@ fn matter_without_a_counterpart_is_named() {
         &format!("{CART}, gravity = 9.81").replace("inertia = 1", "inertia = 1, displaced_mass = 0.5"),
         &["on `cart`"],
     );
+    check(&CART.replace("inertia = 1", "inertia = 2 - t"), &["the mass of `cart` varies with the time"]);
     check(&CART.replace("inertia = 1", "inertia = 1, added_mass = [1, 1, 1, 0, 0, 0]"), &["on `cart` a fluid acts"]);
     let formal = "coordinates(turn: Rotation), waive(triangle_inequality),
                   body(rotor, rotation = turn, mass = 1, inertia = [1, 1, 3])";

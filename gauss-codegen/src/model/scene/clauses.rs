@@ -100,7 +100,7 @@ impl BodyClause {
 /// `particle(mass = …, position = …, parent = …)`.
 #[derive(Clone)]
 pub struct ParticleClause {
-    /// A scalar of fields and numbers.
+    /// A scalar of t, fields and numbers.
     pub mass: Expression,
     /// A vector of t and q: in the axes of the parent from its O, or in observer axes from Ω.
     pub position: Expression,
@@ -180,7 +180,7 @@ pub struct RoleClause {
     pub role: Role,
     /// Scalar or vector; of an added mass six, or six by six.
     pub shape: Shape,
-    /// Value, made of fields and numbers.
+    /// Value, made of fields and numbers; of mass data also of t.
     pub value: RoleValue,
     /// The word of the role.
     pub span: Span,

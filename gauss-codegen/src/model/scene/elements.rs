@@ -522,8 +522,8 @@ pub static DISSIPATION: Row = Row {
     argument: "a dissipation function",
 };
 
-/// Matter that a body of varying mass loses or takes up at the place `at`, where it moves with `velocity` relative to the
-/// body: the force ṁ u there, and what matter that flows toward the place does to a body that turns. `thrust` is a
+/// Matter that a body of varying mass loses or takes up at the place `at`, where it moves with `velocity` relative to
+/// the body: the force ṁ u there, and what matter that flows toward the place does to a body that turns. `thrust` is a
 /// force at the same place, of the pressure there or, in the place of the velocity, all of it.
 pub static MASS_FLOW: Row = Row {
     kind: ElementKind::MassFlow,

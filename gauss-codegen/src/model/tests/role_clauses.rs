@@ -55,9 +55,18 @@ fn kinds_and_names() {
             ("l", "the centre of mass is a point, in body axes from O, found a scalar; write `[x, y, z]`"),
         ],
     );
+    model(&under("mass = 3 - t, inertia = [2, 2 - t, 2], center_of_mass = [0, 0, t]", ""));
     check(
-        &under("mass = t, inertia = 2.0", ""),
-        &[("t", "`t` varies, and `mass` of a body is constant; write numbers and fields only")],
+        &under("mass = 1, inertia = 2.0, gravity = t", ""),
+        &[("t", "`t` varies, and `gravity` of a body is constant; write numbers and fields only")],
+    );
+    check(
+        &under("mass = 1, inertia = [1, 2, 3, 4, 5, 6 + abs(t)]", ""),
+        &[(
+            "abs",
+            "`abs` stands in values of forces only; make the number a field of the struct, or the function of time a \
+             `table(…)`",
+        )],
     );
     check(&under("mass = 1.0, inertia = jj", "j: f64"), &[("jj", "unknown name `jj`; did you mean the field `j`?")]);
 }

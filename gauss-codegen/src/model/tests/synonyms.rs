@@ -17,7 +17,7 @@ fn clauses_beside_a_chart() {
         &[(
             "Thruster",
             "unknown clause `Thruster`; a value that arrives at run time is an input, and acts by a clause: `input(thrust), \
-             force(body = hull, at = […], value = [thrust, 0, 0])`",
+             force(body = hull, at = […], value = [thrust, 0, 0])`; with the mass that it burns `mass_flow(…)`",
         )],
     );
 }

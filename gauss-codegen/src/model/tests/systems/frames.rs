@@ -234,13 +234,13 @@ fn places() {
             ),
             (
                 "tip",
-                "`tip` varies, and the mass of a particle is constant; write numbers and fields only; a particle that \
-                 loses mass moves as one of mass 1 does on which every force is divided by m(t)",
+                "`tip` moves with the system, and the mass of a particle is given beforehand; write it in `t`, fields \
+                 and numbers",
             ),
             (
                 "tip",
-                "`tip` varies, and the mass of a particle is constant; write numbers and fields only; a particle that \
-                 loses mass moves as one of mass 1 does on which every force is divided by m(t)",
+                "`tip` moves with the system, and the mass of a particle is given beforehand; write it in `t`, fields \
+                 and numbers",
             ),
             (
                 "tip",
