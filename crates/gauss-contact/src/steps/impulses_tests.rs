@@ -4,6 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use gauss_runtime::contact::Contact;
+use gauss_runtime::nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::*;
 use crate::dense::{Matrix, dot};
@@ -181,77 +182,54 @@ fn sixty_four_contacts_on_a_plate_carry_it() {
     }
 }
 
-#[test]
-fn corners_whose_rates_contradict_one_another_by_little_are_left() {
-    // A cube that falls on a face, all but at rest: two corners are to keep a part of their rates, the others none. Of
-    // four corners in a plane only three can do so, and the fourth leaves by 3e-10 m/s.
-    let (a, m, e) = (16e-3, 4.5e-3, 0.4);
-    let turn = gauss_runtime::nalgebra::UnitQuaternion::from_quaternion(gauss_runtime::nalgebra::Quaternion::new(
-        -0.6928509533972876,
-        -0.6928397817233589,
-        -0.1413259949904657,
-        -0.14127121567379836,
-    ));
-    let r = turn.to_rotation_matrix();
-    let z = [
-        3.1728786825290975e-5,
-        3.173009949904333e-5,
-        2.7350723270404276e-10,
-        4.7409264464973974e-8,
-        6.590896667116319e-7,
-        -0.003965999673104495,
-    ];
-    let (lin, ang) = (1.0 / f64::sqrt(m), 1.0 / f64::sqrt(m * a * a / 6.0));
+const DIE: (f64, f64) = (16e-3, 4.5e-3);
+const PRESSED: f64 = 9.81 * 5e-4;
+
+/// A die on its way to a face in a step of 0.5 ms, all but at rest: two of its corners are to keep a part of their
+/// rates, the others none. By how much these rates contradict one another comes with it.
+fn die_on_a_face() -> (Random, f64) {
+    let ((a, m), e) = (DIE, 0.4);
+    let turn = [-0.6928509533972876, -0.6928397817233589, -0.1413259949904657, -0.14127121567379836];
+    let turn = Quaternion::new(turn[0], turn[1], turn[2], turn[3]);
+    let turn = UnitQuaternion::from_quaternion(turn).to_rotation_matrix();
+    let v = Vector3::new(3.1728786825290975e-5, 3.173009949904333e-5, 2.7350723270404276e-10);
+    let omega = Vector3::new(4.7409264464973974e-8, 6.590896667116319e-7, -0.003965999673104495);
+    let unit = [m, m * a * a / 6.0].map(|inertia| 1.0 / inertia.sqrt());
     let (mut rows, mut before, mut b) = (Vec::new(), Vec::new(), Vec::new());
-    for [x, y] in [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]] {
-        // Corners 0, 1, 4, 5: k_3, k_2, k_1.
-        let p = gauss_runtime::nalgebra::Vector3::new(x, -1.0, y) * (0.5 * a);
-        for k in [2, 0, 1] {
-            let n: Vec<f64> = (0..3).map(|j| r[(k, j)]).collect();
-            let c = p.cross(&gauss_runtime::nalgebra::Vector3::new(n[0], n[1], n[2]));
-            let row = [n[0], n[1], n[2], c.x, c.y, c.z];
-            before.push(dot(&row, &z));
-            b.push(dot(&row, &z) - if k == 2 { 9.81 * 5e-4 } else { 0.0 });
-            rows.push((0..6).map(|j| row[j] * if j < 3 { lin } else { ang }).collect::<Vec<f64>>());
+    for corner in [[-1.0, -1.0, -1.0], [1.0, -1.0, -1.0], [-1.0, -1.0, 1.0], [1.0, -1.0, 1.0]] {
+        let corner = Vector3::from(corner) * (0.5 * a);
+        for (k, pressed) in [(2, PRESSED), (0, 0.0), (1, 0.0)] {
+            let along = turn.matrix().row(k).transpose();
+            let about = corner.cross(&along);
+            let rate = along.dot(&v) + about.dot(&omega);
+            before.push(rate);
+            b.push(rate - pressed);
+            rows.push([along * unit[0], about * unit[1]].iter().flatten().copied().collect());
         }
     }
-    for i in [0, 6] {
-        b[i] += e * before[i];
-    }
-    let cones = (0..4)
-        .map(|i| Cone {
-            normal: Some(3 * i),
-            pressed: Some(3 * i),
-            first: 3 * i + 1,
-            count: 2,
-            friction: 0.3,
-            acts: true,
-        })
-        .collect();
-    let random = Random { rows, free: vec![], b, cones };
-    let start = [
-        8.235414321941483e-6,
-        -1.169897169946507e-6,
-        2.1760801976523423e-6,
-        0.0,
-        0.0,
-        0.0,
-        2.0944530691796654e-6,
-        -6.279243475414516e-7,
-        2.273858118468784e-8,
-        1.2242329314634517e-5,
-        -2.65601898257325e-6,
-        2.536588180711825e-6,
-    ];
-    for start in [start, [0.0; 12]] {
-        let (found, impulses, rates) = random.solve(&start);
-        assert!(found.holds && found.residual.worst() < 1e-13, "{found:?}");
-        // What is parted is parted by what rates contradict one another by.
-        let parted = e * (before[0] - before[6]);
+    [0, 6].into_iter().for_each(|row| b[row] += e * before[row]);
+    let friction = |i| Cone { normal: Some(i), pressed: Some(i), first: i + 1, count: 2, friction: 0.3, acts: true };
+    let cones = [0, 3, 6, 9].map(friction).to_vec();
+    (Random { rows, free: Vec::new(), b, cones }, e * (before[0] - before[6]))
+}
+
+#[test]
+fn corners_whose_rates_contradict_one_another_by_little_are_left() {
+    let (die, parted) = die_on_a_face();
+    let mut start = [0.0; 12];
+    let cold = start;
+    start[..3].copy_from_slice(&[8.235414321941483e-6, -1.169897169946507e-6, 2.1760801976523423e-6]);
+    start[6..9].copy_from_slice(&[2.0944530691796654e-6, -6.279243475414516e-7, 2.273858118468784e-8]);
+    start[9..].copy_from_slice(&[1.2242329314634517e-5, -2.65601898257325e-6, 2.536588180711825e-6]);
+    for start in [start, cold] {
+        let (found, impulses, rates) = die.solve(&start);
+        assert!(found.holds, "{found:?}");
         let normals = |of: &[f64]| [0, 3, 6, 9].map(|row| of[row]);
+        // Four corners in a plane: three stay, and the fourth leaves by what their rates are apart, 3e-10 m/s.
         let open = normals(&rates).into_iter().fold(0.0, f64::max);
-        assert!((open - parted).abs() < 1e-13, "{open:e} {parted:e}");
+        assert!((open - parted).abs() < 4.0 * found.residual.rounding, "{open:e} {parted:e} {found:?}");
+        // They carry the weight, but for the rates that it had, 1.3 % of those that it gains.
         let carried: f64 = normals(&impulses).into_iter().sum();
-        assert!(carried > 0.99 * m * 9.81 * 5e-4, "{carried:e}");
+        assert!((carried / (DIE.1 * PRESSED) - 1.0).abs() < 0.013, "{carried:e}");
     }
 }
