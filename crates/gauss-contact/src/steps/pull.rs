@@ -1,10 +1,10 @@
 //! The pull of impulses towards those before, where contacts depend on one another, from one correction to the next.
 //!
 //! What cannot stick all at once, as two corners that an impact parts, or cannot all stay closed, drifts to the bound
-//! of its friction or to zero by the inverse of the pull. Along a bound that is round a drift errs by its square. A pull
-//! that only follows the residual then creeps; where rates contradict one another by 10⁻¹⁰ m/s, as of a die that comes
-//! to rest, it does not arrive. So in other rounds each drift is ten times as long as the one before, and corrections
-//! that all but stand still come after it.
+//! of its friction or to zero by the inverse of the pull. Along a bound that is round a drift errs by its square. A
+//! pull that only follows the residual then creeps; where rates contradict one another by 10⁻¹⁰ m/s, as of a die that
+//! comes to rest, it does not arrive. So in other rounds each drift is ten times as long as the one before, and
+//! corrections that all but stand still come after it.
 
 /// Part of the diagonal by which impulses are pulled at first.
 const FIRST: f64 = 1e-5;
