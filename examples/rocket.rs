@@ -128,9 +128,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     let shapes = [Shape::cylinder(0.078, 2.4).at(&Isometry3::rotation(Vector3::x() * (PI / 2.0)))];
-    let page = Playback::of_samples("A rocket that burns its fuel", flight).si();
-    write_page(
-        "rocket",
-        &page.body("hull", |s| Isometry3::new(Vector3::new(s.q[0], s.q[1], 0.0), Vector3::z() * s.q[2]), shapes),
-    )
+    let page = Playback::of_samples("A rocket that burns its fuel", flight)
+        .body("hull", |s| Isometry3::new(Vector3::new(s.q[0], s.q[1], 0.0), Vector3::z() * s.q[2]), shapes)
+        .trace("hull", [0.0; 3])
+        .up([0.0, 1.0, 0.0])
+        .from_the_side()
+        .follow("hull")
+        .curve("height / m", "hull", |s| s.q[1])
+        .curve("speed / (m/s)", "hull", |s| s.z[0].hypot(s.z[1]))
+        .curve("pitch / °", "hull", |s| s.q[2].to_degrees());
+    write_page("rocket", &page.si())
 }
