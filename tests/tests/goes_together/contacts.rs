@@ -60,6 +60,16 @@ struct ByCornersToAWall {}
 )]
 struct PushedToAWall {}
 
+/// A hull whose fuel leaves by a nozzle, before a wall.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(x, angle),
+    body(hull, position = [x, 0, 0], rotation = rotation_z(angle), mass = 2 - 0.5 * t, inertia = [1, 1, 1 - 0.3 * t]),
+    mass_flow(jet, body = hull, at = [-0.4, 0.1, 0], velocity = [-1, 0, 0]), spring(along = x, stiffness = 4),
+    contact(wall, gap = x + 0.2, restitution = 0.5),
+)]
+struct BurningToAWall {}
+
 type Start<K> = (<K as GaussSystem>::Configuration, <K as GaussSystem>::Speeds);
 
 fn apart<K: GaussSystem<Scalar = f64>>(a: &Start<K>, b: &Start<K>) -> f64 {
@@ -124,4 +134,10 @@ fn table_of_two() {
 fn recorded_push() {
     let start = (SVector::from([0.3]), SVector::from([0.0]));
     check(&PushedToAWall {}.kernel().unwrap(), start, |t, _, _| SVector::from([recorded(t)]));
+}
+
+#[test]
+fn mass() {
+    let start = (SVector::from([0.3, 0.1]), SVector::from([-1.0, 0.5]));
+    check(&BurningToAWall {}.kernel().unwrap(), start, |_, _, _| ());
 }

@@ -12,7 +12,7 @@ mod scenes;
 mod touching;
 
 use happenings::{Event, Jump, Sampled};
-use scenes::{Bending, Constrained, Input, Recorded, Redundant, Stateful, TableOfOne, TableOfTwo};
+use scenes::{Bending, Burning, Constrained, Input, Recorded, Redundant, Stateful, TableOfOne, TableOfTwo};
 
 /// A module for each scene with a test for each column.
 macro_rules! goes_together {
@@ -31,6 +31,10 @@ macro_rules! goes_together {
 }
 
 goes_together! {
+    mass Burning:
+        runs::{steps, several_steps, adaptive, series, stiff, implicit, lanes_and_threads, by_hand, between},
+        records::{table_and_plot, page, study, energy},
+        derivatives::{of_runs, at_a_state, of_a_step, along_a_run};
     constraints Constrained:
         runs::{lanes_and_threads, by_hand},
         records::{table_and_plot, page, study},

@@ -133,6 +133,25 @@ scene! {
     (vector([T::zero(), T::from_f64(0.02)]), vector([rate, T::zero()]))
 }
 
+/// A hull on a spring whose fuel leaves by a nozzle beside its axis.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(x, angle), linearize, taylor,
+    body(hull, position = [x, 0, 0], rotation = rotation_z(angle), mass = 2 - 0.5 * t, center_of_mass = [0.1 * t, 0, 0],
+        inertia = [1, 1, 1 - 0.3 * t]),
+    mass_flow(jet, body = hull, at = [-0.4, 0.1, 0], velocity = [-c, 0, 0]), spring(along = x, stiffness = 4),
+)]
+pub struct Hull<T> {
+    c: T,
+}
+
+scene! {
+    /// Mass that varies.
+    Burning of HullKernel, [3.0, 0.8],
+    |c, rate| Hull { c },
+    (vector([T::from_f64(0.2), T::zero()]), vector([T::zero(), rate]))
+}
+
 /// A line through places unevenly far apart.
 pub const PULL: [[f64; 2]; 5] = [[-2.0, -3.0], [-0.5, -0.75], [0.0, 0.0], [0.75, 1.125], [2.0, 3.0]];
 

@@ -96,41 +96,30 @@ fn a_jet_damps_what_turns() {
     assert!(expected < 0.5 && (end - expected).abs() < 1e-8 * expected, "{end} {expected}");
 }
 
-/// A rocket in space by its pose, with everything that flows.
-#[derive(GaussDynamics)]
-#[gauss(
-    linearize(parameters), chart = left_invariant,
-    mass = start - burn * t, center_of_mass = [0.1 + shift * t * t, 0.05, 0], inertia = [3 - k * t, 9 - t, 8 - 0.5 * t],
-    mass_flow(jet, at = [-l, 0.1, 0.05], velocity = [-exhaust, 3, 0], thrust = [press, 0, 0]),
-    gravity = 9.81,
-)]
-struct InSpace {
-    start: f64,
-    burn: f64,
-    shift: f64,
-    k: f64,
-    l: f64,
-    exhaust: f64,
-    press: f64,
+/// A rocket in space by its pose, with everything that flows, in a chart.
+macro_rules! rocket_in_space {
+    ($name:ident: $($clauses:tt)+) => {
+        #[derive(GaussDynamics)]
+        #[gauss(
+            $($clauses)+, mass = start - burn * t, center_of_mass = [0.1 + shift * t * t, 0.05, 0],
+            inertia = [3 - k * t, 9 - t, 8 - 0.5 * t],
+            mass_flow(jet, at = [-l, 0.1, 0.05], velocity = [-exhaust, 3, 0], thrust = [press, 0, 0]), gravity = 9.81,
+        )]
+        struct $name {
+            start: f64,
+            burn: f64,
+            shift: f64,
+            k: f64,
+            l: f64,
+            exhaust: f64,
+            press: f64,
+        }
+    };
 }
 
-/// The same from the observer's pole, in the other chart.
-#[derive(GaussDynamics)]
-#[gauss(
-    chart = hybrid,
-    mass = start - burn * t, center_of_mass = [0.1 + shift * t * t, 0.05, 0], inertia = [3 - k * t, 9 - t, 8 - 0.5 * t],
-    mass_flow(jet, at = [-l, 0.1, 0.05], velocity = [-exhaust, 3, 0], thrust = [press, 0, 0]),
-    gravity = 9.81,
-)]
-struct InOtherSpeeds {
-    start: f64,
-    burn: f64,
-    shift: f64,
-    k: f64,
-    l: f64,
-    exhaust: f64,
-    press: f64,
-}
+rocket_in_space!(InSpace: linearize(parameters), chart = left_invariant);
+// From the observer's pole.
+rocket_in_space!(InOtherSpeeds: chart = hybrid);
 
 /// A rocket with fuel that swings in it: two links, one of which varies.
 #[derive(GaussDynamics)]

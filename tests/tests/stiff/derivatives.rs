@@ -4,20 +4,7 @@ use gauss_runtime::dual::Dual;
 use gauss_runtime::integrate::Radau;
 use gauss_runtime::prelude::*;
 
-/// A bob on a rod that is a stiff spring with a damper, on a pivot that is shaken.
-#[derive(GaussDynamics)]
-#[gauss(
-    linearize,
-    coordinates(x, z),
-    particle(mass = 1, position = [x, 0, z]),
-    spring(from = [0.1 * sin(3 * t), 0, 0], to = [x, 0, z], stiffness = k, length = 1, damping = c),
-)]
-struct Penalty<T> {
-    k: T,
-    c: T,
-    #[gauss(gravity)]
-    g: T,
-}
+use super::scenes::Penalty;
 
 #[test]
 fn derivatives_are_as_exact_as_the_numbers_that_carry_them() {

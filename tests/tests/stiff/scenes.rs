@@ -65,11 +65,11 @@ struct Shaken {
     particle(mass = 1, position = [x, 0, z]),
     spring(from = [0.1 * sin(3 * t), 0, 0], to = [x, 0, z], stiffness = k, length = 1, damping = c),
 )]
-struct Penalty {
-    k: f64,
-    c: f64,
+pub struct Penalty<T> {
+    pub k: T,
+    pub c: T,
     #[gauss(gravity)]
-    g: f64,
+    pub g: T,
 }
 
 /// A crank that drives a slider by a rod without mass, the end of which sits on the pin in a stiff bushing.
